@@ -340,13 +340,19 @@ glsl: ## Compile every shader offline, without a GPU
 	     '-DHAIR_FIBRES=1 -DHAIR_USER_PIXELS=1 glsl/draw/strand.frag'; } | sort -u | \
 	  xargs -r -L 1 -P $(JOBS) glslc --target-env=opengl4.5 -Werror -fauto-map-locations -DHAIR_LINES_LEVEL=0 -Iglsl -o /dev/null
 
-check: rooms circles symbols hardened comments lines functions words arrays mutations amalgam port-version formatted ## Check the order of folders, circles of files, exported names, the one file of all and style
+check: rooms circles commands symbols hardened comments lines functions words arrays mutations amalgam port-version formatted ## Check the order of folders, circles of files, exported names, the one file of all and style
 rooms:
 	@awk -v order="$(ROOMS)" ' \
 	  BEGIN { n = split(order, r, " "); for (i = 1; i <= n; i++) rank[r[i]] = i } \
 	  match($$0, /#include "lib\/[a-z]+\//) { split(FILENAME, f, "/"); split($$0, q, "/"); \
 	    if (!rank[q[2]] || rank[q[2]] > rank[f[2]]) { print FILENAME ":" FNR ": " f[2] " must not see " q[2]; bad = 1 } } \
 	  END { exit bad }' $(wildcard $(ROOMS:%=lib/%/*.[ch]))
+# Commands that lists of instances record have functions in lib/gl/commands.h.
+RECORDED := BindBuffers(Base|Range)|BindTextureUnit|BindSampler|BindImageTexture|CopyNamedBufferSubData|\
+ClearNamedBufferData|MemoryBarrier|UseProgram|DispatchCompute
+empty :=
+commands:
+	@! grep -nE 'gl->($(subst $(empty) ,,$(RECORDED)))\(' $(wildcard $(filter-out lib/gl/%,$(ROOMS:%=lib/%/*.[ch])))
 # The files of one folder call each other in one direction only.
 circles: $(LIB)
 	@nm -A $(filter $(B)/lib/%,$(LIB)) | awk -f tools/circles.awk

@@ -288,6 +288,21 @@ HAIR_API hair_result hair_set_scalp_joints(hair_instance* hair, const float* mat
 /// OpenGL: required unless the hair is asleep. Does not wait for the GPU.
 HAIR_API hair_result hair_step(hair_instance* hair, float dt);
 
+/// Advance many instances by the same time. The result is that of hair_step() for each of them, to
+/// the bit.
+///
+/// A GPU computes the instances side by side, which takes a small part of the time that single
+/// calls take for small heads. hair_report() counts the stages of this call, but has no times of
+/// them. An instance that fails stays as it was, and the others are stepped.
+///
+/// @param list Instances of one context, each at most once. May be NULL if `count` is 0.
+/// @param count Number of instances.
+/// @param dt As in hair_step(). The max_dt of each instance applies.
+/// Errors: those of hair_step(), the first of any instance. HAIR_ERROR_ARGUMENT for the list, and
+///     then no instance is stepped.
+/// OpenGL: required unless all hair is asleep. Does not wait for the GPU.
+HAIR_API hair_result hair_step_list(hair_instance* const* list, uint32_t count, float dt);
+
 /// Put every strand at rest, in its rest pose, under the current transform.
 /// Errors: HAIR_ERROR_ARGUMENT, HAIR_ERROR_OPENGL.
 /// OpenGL: required. Does not wait for the GPU.

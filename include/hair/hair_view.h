@@ -393,6 +393,21 @@ HAIR_DESC(hair_view)
 /// OpenGL: required. Does not wait for the GPU.
 HAIR_API hair_result hair_draw(hair_instance* hair, const hair_view* view);
 
+/// Draw many instances in one view, in the order of the list. The pixels are those of hair_draw()
+/// for each of them.
+///
+/// A GPU prepares the strands of all instances side by side, as hair_step_list() steps them. An
+/// instance that fails is not drawn, and the others are drawn.
+///
+/// @param list Instances of one context, each at most once. May be NULL if `count` is 0.
+/// @param count Number of instances.
+/// @param view As in hair_draw(), for all instances. Its shadow maps must have all their shadows.
+/// Errors: those of hair_draw(), the first of any instance. HAIR_ERROR_ARGUMENT for the list or the
+///     view, and then no instance is drawn.
+/// OpenGL: required. Does not wait for the GPU.
+HAIR_API hair_result hair_draw_list(hair_instance* const* list, uint32_t count,
+                                    const hair_view* view);
+
 /// Compile all programs that hair_step() and a hair_draw() of `view` need with the current
 /// settings, so that no frame waits for the compiler.
 ///

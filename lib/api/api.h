@@ -85,6 +85,7 @@ struct hair_instance {
     struct hair_gl_profiler profiler;
     struct hair_gl_owner memory; // memory of buffers and textures by category
     struct hair_frame_requests requests[HAIR_GL_FRAMES]; // per frame of the ledger
+    bool is_listed; // true while a list that has the instance is checked
 };
 
 // Create what every room has of an instance, whose `label`, `look` and `creation` are set. On
@@ -138,6 +139,11 @@ hair_result hair_copy_map_sets(const hair_host* host, hair_groom_desc* desc, hai
 hair_result hair_copy_attributes(const hair_host* host, hair_groom_desc* desc,
                                  hair_strand_attribute own[HAIR_MAX_ATTRIBUTES]);
 
+// Log how guides are softened, if this differs from the last log.
+void hair_tell_softened(hair_instance* hair);
+// Check that a list has instances of one context, each once.
+hair_result hair_check_list(hair_instance* const* list, uint32_t count);
+
 // Check the number of a group of strands.
 hair_result hair_check_group(const hair_instance* hair, uint32_t group);
 
@@ -157,6 +163,16 @@ float* hair_copy_positions(const hair_instance* hair, const char* what, const fl
 hair_result hair_check_position_buffer(const hair_context* context, const char* label, const char* what,
                                        uint32_t buffer, size_t offset, size_t stride, uint32_t count,
                                        size_t* from, size_t* size);
+
+// A view of the application, and the structs that it points to, checked and copied.
+struct hair_view_copy {
+    hair_view view;
+    hair_lod lod;
+    hair_light light[HAIR_LIGHTS];
+};
+hair_result hair_copy_view(const hair_instance* hair, const hair_view* view, struct hair_view_copy* out);
+// Make the plan of a view, which must be validated. Defined in draw.c.
+void hair_make_plan(const hair_instance* hair, const hair_view* view, struct hair_draw_plan* out);
 
 // Check the textures that the application passes to a view, as far as a draw of `view` reads them.
 hair_result hair_check_view_textures(const hair_instance* hair, const hair_view* view);
@@ -181,7 +197,7 @@ hair_result hair_read_nearby_vertices(hair_instance* hair, const struct hair_cut
                                       struct hair_nearby_vertices* out);
 
 // Find followers inside colliders and push them out before they are drawn or read, unless nobody
-// can see this. Colliders block the light of a density grid in any case. Defined in view.c.
+// can see this. Colliders block the light of a density grid in any case. Defined in draw.c.
 hair_result hair_update_follower_collision(hair_instance* hair);
 
 #endif

@@ -21,8 +21,7 @@ hair_result hair_check_transform(const hair_instance* hair, const char* name, co
     return HAIR_OK;
 }
 
-// Log how guides are softened, if this differs from the last log.
-static void tell_softened(hair_instance* hair)
+void hair_tell_softened(hair_instance* hair)
 {
     struct hair_rods_softened now = hair_sim_preload_report(&hair->sim).softened, *told = &hair->told;
     if (now.guides == told->guides && now.worst == told->worst && now.factor == told->factor) return;
@@ -69,7 +68,7 @@ hair_result hair_instance_create_rooms(hair_instance* hair, const hair_groom* gr
     hair_field_create(&hair->field, sim->sdf_pool, groom, hair->creation.field_voxel);
     HAIR_TRY(hair_sim_create(&hair->sim, gl, groom, sim));
     hair->told = hair_rods_report_none().softened;
-    tell_softened(hair);
+    hair_tell_softened(hair);
     HAIR_TRY(
         hair_geometry_create(&hair->geometry, gl, groom, &hair->sim, &look, hair->creation.uses_prepass));
     HAIR_TRY(hair_lighting_create(&hair->lighting, gl, groom));
@@ -229,61 +228,6 @@ hair_result hair_set_colliders(hair_instance* hair, const hair_collider* collide
             host, HAIR_LOG_WARNING,
             "%s: of %u colliders guides collide with %u: the nearest %d, and none but spheres and capsules",
             hair->label, count, contacts, HAIR_STEP_COLLIDERS);
-    }
-    return result;
-}
-
-hair_result hair_step(hair_instance* hair, float dt)
-{
-    HAIR_TRY(hair_check_instance(hair));
-    hair_context* context = hair->context;
-    if (!(dt >= 0)) // NaN fails too.
-        return hair_fail(&context->host, HAIR_ERROR_ARGUMENT, "%s: dt is %g, not 0 or more", hair->label,
-                         (double)dt);
-    if (dt == 0) return HAIR_OK;
-    double time = (double)dt;
-    if (time > hair->max_dt) {
-        if (!hair->has_slowed)
-            hair_log(&context->host, HAIR_LOG_WARNING, "%s: dt is %g s, beyond max_dt %g s: time slows",
-                     hair->label, time, hair->max_dt);
-        hair->has_slowed = 1;
-        time = hair->max_dt;
-    }
-    if (context->gl.is_lost) return hair_check_current(context); // Sleeping hair needs no OpenGL.
-    double unseen = hair->sim.unseen;
-    HAIR_ASSERT(time > 0);
-    hair_sim_set_unseen_time(&hair->sim, unseen + time);
-    if (hair_sleep_through(&hair->sim)) {
-        hair_sim_pass_time(&hair->sim, time);
-        hair_begin_frame(hair);
-        hair_current_requests(hair)->asleep = 1;
-        return HAIR_OK;
-    }
-    hair_result result = hair_check_current(context);
-    if (!result && hair->sim.feedback.wanted && !hair_scalp_motion_is_on(&hair->sim))
-        result = hair_gl_check_capture(&context->gl, hair->label);
-    if (result) {
-        hair_sim_set_unseen_time(&hair->sim, unseen);
-        return result;
-    }
-    struct hair_gl_profiler was = hair->profiler;
-    struct hair_frame_requests requests = hair->requests[(was.number + 1) % HAIR_GL_FRAMES];
-    hair_enter(hair);
-    hair_begin_frame(hair);
-    // The field is that at the end of the step, because it moves along with the head.
-    if (hair_wind_coupling_is_on(&hair->sim)) result = hair_update_field_at(hair, &hair->sim.head);
-    if (!result) result = hair_sim_step(&hair->sim, time);
-    if (!result) {
-        tell_softened(hair);
-        hair_geometry_invalidate_guides(&hair->geometry);
-        hair_draw_free_unused(&hair->renderer, hair->profiler.number);
-    }
-    result = hair_leave(context, result);
-    if (result) { // The frame is undone.
-        HAIR_ASSERT(hair->profiler.number == was.number + 1);
-        *hair_current_requests(hair) = requests;
-        hair_gl_profiler_undo(&hair->profiler, &was);
-        hair_sim_set_unseen_time(&hair->sim, unseen);
     }
     return result;
 }

@@ -43,7 +43,7 @@ static hair_result write_states(const struct hair_sim* sim, const struct hair_st
     GLuint upload = 0;
     size_t size = sim->guide_vertices * sizeof *states;
     HAIR_TRY(hair_gl_buffer(sim->gl, HAIR_GL_CATEGORY_SOLVE, "motion of cut hair", size, states, &upload));
-    sim->gl->CopyNamedBufferSubData(upload, sim->state, 0, 0, (GLsizeiptr)size);
+    hair_gl_copy_buffer(sim->gl, upload, sim->state, 0, 0, (GLsizeiptr)size);
     hair_gl_free_buffer(sim->gl, &upload);
     return HAIR_OK;
 }

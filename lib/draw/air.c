@@ -63,8 +63,8 @@ hair_result hair_draw_air(struct hair_renderer* renderer, const struct hair_wind
     hair_gl_write_uniform(gl, buffer, sizeof params, &params);
     hair_wind_bind(air, gl, wind);
     if (fluid) hair_fluid_bind(fluid);
-    gl->BindBuffersBase(GL_UNIFORM_BUFFER, HAIR_BIND_DRAW, 1, &renderer->geometry->params);
-    gl->BindBuffersBase(GL_UNIFORM_BUFFER, HAIR_BIND_DEBUG, 1, &buffer);
+    hair_gl_bind_buffers(gl, GL_UNIFORM_BUFFER, HAIR_BIND_DRAW, 1, &renderer->geometry->params);
+    hair_gl_bind_buffers(gl, GL_UNIFORM_BUFFER, HAIR_BIND_DEBUG, 1, &buffer);
     gl->BindVertexArray(gl->vertex_array);
     gl->Disable(GL_CULL_FACE);
     hair_draw_begin_outputs(gl, HAIR_DRAW_FIRST_BUFFER, &outputs);
@@ -73,7 +73,7 @@ hair_result hair_draw_air(struct hair_renderer* renderer, const struct hair_wind
     hair_gl_end(gl, HAIR_GL_AIR);
     hair_draw_end_outputs(gl, &outputs);
     // Unbind the buffer before it is deleted. See state.c.
-    gl->BindBuffersBase(GL_UNIFORM_BUFFER, HAIR_BIND_DEBUG, 1, NULL);
+    hair_gl_bind_buffers(gl, GL_UNIFORM_BUFFER, HAIR_BIND_DEBUG, 1, NULL);
     hair_gl_free_buffer(gl, &buffer);
     return HAIR_OK;
 }

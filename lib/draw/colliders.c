@@ -95,17 +95,17 @@ hair_result hair_draw_colliders(struct hair_renderer* renderer, const struct hai
             (hair_vec4){head->rotation.x, head->rotation.y, head->rotation.z, head->rotation.w};
         params->depth = find_depth(gl);
         hair_draw_write_slice(&field->box, view->slice, view->slice_at, params);
-        gl->BindBuffersBase(GL_UNIFORM_BUFFER, HAIR_BIND_DRAW, 1, &renderer->geometry->params);
-        gl->BindBuffersBase(GL_UNIFORM_BUFFER, HAIR_BIND_DEBUG, 1, &buffer);
+        hair_gl_bind_buffers(gl, GL_UNIFORM_BUFFER, HAIR_BIND_DRAW, 1, &renderer->geometry->params);
+        hair_gl_bind_buffers(gl, GL_UNIFORM_BUFFER, HAIR_BIND_DEBUG, 1, &buffer);
         gl->BindVertexArray(gl->vertex_array);
         gl->Disable(GL_CULL_FACE);
         hair_draw_begin_outputs(gl, HAIR_DRAW_FIRST_BUFFER, &outputs);
         draw_slice(renderer, field, view, buffer, params);
-        gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_NODE, 1, &field->sdf_pool->nodes);
+        hair_gl_bind_buffers(gl, GL_SHADER_STORAGE_BUFFER, HAIR_BIND_NODE, 1, &field->sdf_pool->nodes);
         draw_shapes(renderer, field, colliders, count, head, buffer, params);
         hair_draw_end_outputs(gl, &outputs);
-        gl->BindBuffersBase(GL_UNIFORM_BUFFER, HAIR_BIND_DEBUG, 1,
-                            NULL); // Unbind the buffer before it is deleted. See state.c.
+        hair_gl_bind_buffers(gl, GL_UNIFORM_BUFFER, HAIR_BIND_DEBUG, 1,
+                             NULL); // Unbind the buffer before it is deleted. See state.c.
     }
     hair_gl_free_buffer(gl, &buffer);
     hair_free(&gl->host, params);

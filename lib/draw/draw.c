@@ -36,21 +36,19 @@ void hair_draw_bind_plan(struct hair_renderer* renderer, const struct hair_draw_
     hair_geometry_bind(renderer->geometry);
     if (plan->view->pass == HAIR_PASS_COLOR)
         hair_lighting_bind(renderer->lighting, &renderer->geometry->look, plan->view);
-    if (plan->has_root_uvs) gl->BindTextureUnit(HAIR_UNIT_UV, renderer->geometry->uv_texture);
-    if (plan->is_painted) gl->BindTextureUnit(HAIR_UNIT_GROOM_COLOR, renderer->lighting->groom_color_texture);
+    if (plan->has_root_uvs) hair_gl_bind_texture(gl, HAIR_UNIT_UV, renderer->geometry->uv_texture);
+    if (plan->is_painted)
+        hair_gl_bind_texture(gl, HAIR_UNIT_GROOM_COLOR, renderer->lighting->groom_color_texture);
     if (!plan->is_textured) return;
-    gl->BindTextureUnit(HAIR_UNIT_COLOR, plan->view->color_texture);
-    gl->BindSampler(HAIR_UNIT_COLOR, 0); // Use the sampler state of the application's texture.
+    hair_gl_bind_texture(gl, HAIR_UNIT_COLOR, plan->view->color_texture);
+    hair_gl_bind_sampler(gl, HAIR_UNIT_COLOR, 0); // Use the state of the application's texture.
 }
 
-static hair_result draw_guides(struct hair_renderer* renderer, const struct hair_pose* head,
-                               const hair_view* view)
+static void draw_guides(struct hair_renderer* renderer, const struct hair_pose* head, const hair_view* view)
 {
     struct hair_gl* gl = renderer->gl;
     struct hair_draw_params params;
     struct hair_outputs outputs;
-    hair_result result = hair_gl_ensure_program(gl, HAIR_GL_GUIDES);
-    if (result) return result;
     hair_draw_write_params(renderer, head, view, &params);
     hair_gl_write_uniform(gl, renderer->geometry->params, sizeof params, &params);
     hair_geometry_bind(renderer->geometry);
@@ -61,7 +59,6 @@ static hair_result draw_guides(struct hair_renderer* renderer, const struct hair
                             (GLsizei)renderer->geometry->guides);
     hair_gl_end(gl, HAIR_GL_GUIDES);
     hair_draw_end_outputs(gl, &outputs);
-    return HAIR_OK;
 }
 
 // Run the passes before the one that draws.
@@ -93,18 +90,15 @@ static void submit(struct hair_renderer* renderer, const struct hair_draw_plan* 
         hair_geometry_draw_patches(renderer->geometry);
 }
 
-static void draw_followers(struct hair_renderer* renderer, struct hair_draw_plan* plan,
-                           const struct hair_draw_params* params)
+static void draw_followers(struct hair_renderer* renderer, const struct hair_draw_plan* plan)
 {
     struct hair_gl* gl = renderer->gl;
     struct hair_blend was;
     struct hair_outputs outputs;
-    HAIR_ASSERT(plan->draw_program && (plan->shade_program != 0) == (plan->shade != 0));
-    prepare_vertices(renderer, plan, params);
     gl->BindVertexArray(gl->vertex_array);
     gl->Disable(GL_CULL_FACE); // A ribbon faces the eye with either side.
     hair_gl_begin(gl, plan->draw);
-    gl->UseProgram(plan->draw_program);
+    hair_gl_use_program(gl, plan->draw_program);
     if (plan->blending) hair_draw_begin_blend(gl, plan->has_motion_output ? 2 : 1, &was);
     hair_draw_begin_outputs(gl, hair_draw_find_outputs(gl, plan), &outputs);
     submit(renderer, plan);
@@ -123,14 +117,15 @@ static hair_gl_pass find_state(const struct hair_renderer* renderer, const struc
     return state;
 }
 
-hair_result hair_draw_run(struct hair_renderer* renderer, const struct hair_pose* head,
-                          struct hair_draw_plan* plan)
+hair_result hair_draw_prepare(struct hair_renderer* renderer, const struct hair_pose* head,
+                              struct hair_draw_plan* plan)
 {
     const hair_view* view = plan->view;
     struct hair_draw_params params;
-    if (view->pass == HAIR_PASS_GUIDES) return draw_guides(renderer, head, view);
-    if (renderer->geometry->look.followers.density <= 0) return HAIR_OK;
     plan->head = head;
+    plan->is_empty = true;
+    if (view->pass == HAIR_PASS_GUIDES) return hair_gl_ensure_program(renderer->gl, HAIR_GL_GUIDES);
+    if (renderer->geometry->look.followers.density <= 0) return HAIR_OK;
     plan->has_occlusion = hair_draw_find_occlusion(renderer, head, view, &plan->occlusion);
     plan->is_empty = plan->is_computed && !hair_draw_find_raster(renderer, head, plan);
     if (renderer->geometry->look.self_shadow.method != HAIR_SELF_SHADOW_STRANDS)
@@ -140,12 +135,22 @@ hair_result hair_draw_run(struct hair_renderer* renderer, const struct hair_pose
     if (!result) result = hair_draw_ensure_resources(renderer, plan);
     if (result || plan->is_empty) return result;
 
+    HAIR_ASSERT(plan->draw_program && (plan->shade_program != 0) == (plan->shade != 0));
     hair_draw_write_params(renderer, head, view, &params);
     if (plan->vertices == HAIR_VERTICES_TESSELLATED) hair_draw_cull_patches(renderer, view, &params);
     params.textured = plan->is_textured;
     hair_gl_write_uniform(renderer->gl, renderer->geometry->params, sizeof params, &params);
     hair_draw_bind_plan(renderer, plan);
-    draw_followers(renderer, plan, &params);
-    hair_lighting_unbind(renderer->lighting);
+    prepare_vertices(renderer, plan, &params);
     return HAIR_OK;
+}
+
+void hair_draw_finish(struct hair_renderer* renderer, const struct hair_draw_plan* plan)
+{
+    if (plan->view->pass == HAIR_PASS_GUIDES) {
+        draw_guides(renderer, plan->head, plan->view);
+    } else if (!plan->is_empty) {
+        draw_followers(renderer, plan);
+        hair_lighting_unbind(renderer->lighting);
+    }
 }

@@ -154,9 +154,12 @@ bool hair_draw_is_out_of_view(const struct hair_renderer* renderer, const struct
 
 // Bind the textures that the passes of a plan have in common.
 void hair_draw_bind_plan(struct hair_renderer* renderer, const struct hair_draw_plan* plan);
-// Draw the view of a plan, which must be validated, with the head's origin at `head`.
-hair_result hair_draw_run(struct hair_renderer* renderer, const struct hair_pose* head,
-                          struct hair_draw_plan* plan);
+// Run all passes of a plan before the one that draws, with the head's origin at `head`. The view
+// must be validated. `head` must be valid until hair_draw_finish().
+hair_result hair_draw_prepare(struct hair_renderer* renderer, const struct hair_pose* head,
+                              struct hair_draw_plan* plan);
+// Run the pass that draws. What hair_draw_prepare() has bound must still be bound.
+void hair_draw_finish(struct hair_renderer* renderer, const struct hair_draw_plan* plan);
 
 // Draw the colliders, and a slice of the field if `view` requests it. A slice needs an up-to-date
 // field.

@@ -3,7 +3,7 @@
 #define HAIR_DRAW_FASTEST_H
 
 #include "lib/draw/render_path.h"
-#include "lib/gl/gl.h"
+#include "lib/gl/commands.h"
 
 #include <stdbool.h>
 

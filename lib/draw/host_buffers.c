@@ -48,10 +48,10 @@ static hair_result ensure_reflectance(struct hair_renderer* renderer)
     hair_gl_write_uniform(gl, geometry->params, sizeof params, &params);
     hair_geometry_bind(geometry);
     hair_geometry_bind_vertex_cache(geometry);
-    if (is_painted) gl->BindTextureUnit(HAIR_UNIT_GROOM_COLOR, lighting->groom_color_texture);
-    gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_SHADED, 1, &own->color);
+    if (is_painted) hair_gl_bind_texture(gl, HAIR_UNIT_GROOM_COLOR, lighting->groom_color_texture);
+    hair_gl_bind_buffers(gl, GL_SHADER_STORAGE_BUFFER, HAIR_BIND_SHADED, 1, &own->color);
     hair_gl_run(gl, pass, geometry->patches * params.chunks);
-    gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_SHADED, 1, NULL);
+    hair_gl_bind_buffers(gl, GL_SHADER_STORAGE_BUFFER, HAIR_BIND_SHADED, 1, NULL);
     own->color_look = geometry->look;
     own->color_generation = gl->program_generation;
     own->color_lengths = geometry->lengths->version;

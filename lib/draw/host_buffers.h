@@ -2,7 +2,7 @@
 #ifndef HAIR_DRAW_HOST_BUFFERS_H
 #define HAIR_DRAW_HOST_BUFFERS_H
 
-#include "lib/gl/gl.h"
+#include "lib/gl/commands.h"
 
 // Index of the strand of each vertex, of guides or of followers.
 struct hair_strand_index {

@@ -158,10 +158,10 @@ void hair_draw_cull_occluded(struct hair_renderer* renderer, struct hair_draw_pl
     hair_gl_pass patches = HAIR_GL_CULL_PATCHES;
     if (hair_geometry_has_hits(renderer->geometry))
         patches = hair_gl_add_features(patches, HAIR_GL_WITH(HITS));
-    gl->BindBuffersBase(GL_UNIFORM_BUFFER, HAIR_BIND_OCCLUSION, 1, &occlusion->params);
-    gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_HIZ, 3, buffers);
-    gl->BindTextureUnit(HAIR_UNIT_OCCLUSION, plan->view->occluder_depth);
-    gl->BindSampler(HAIR_UNIT_OCCLUSION, gl->shadow_sampler[0]);
+    hair_gl_bind_buffers(gl, GL_UNIFORM_BUFFER, HAIR_BIND_OCCLUSION, 1, &occlusion->params);
+    hair_gl_bind_buffers(gl, GL_SHADER_STORAGE_BUFFER, HAIR_BIND_HIZ, 3, buffers);
+    hair_gl_bind_texture(gl, HAIR_UNIT_OCCLUSION, plan->view->occluder_depth);
+    hair_gl_bind_sampler(gl, HAIR_UNIT_OCCLUSION, gl->shadow_sampler[0]);
     hair_hiz_run(gl, occlusion->params, params);
     hair_gl_run(gl, HAIR_GL_GUIDE_BOUNDS, (parts + HAIR_GROUP_SIZE - 1) / HAIR_GROUP_SIZE);
     hair_gl_run(gl, patches, renderer->geometry->patches);

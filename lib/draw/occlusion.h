@@ -3,7 +3,7 @@
 #ifndef HAIR_DRAW_OCCLUSION_H
 #define HAIR_DRAW_OCCLUSION_H
 
-#include "lib/gl/gl.h"
+#include "lib/gl/commands.h"
 
 struct hair_occlusion {
     GLuint params, depth, box; // Buffers, as in shared.h. 0 until needed.

@@ -5,7 +5,7 @@
 #include "lib/base/pose.h"
 #include "lib/draw/raster.h"
 #include "lib/draw/render_path.h"
-#include "lib/gl/gl.h"
+#include "lib/gl/commands.h"
 
 #include <stdbool.h>
 
@@ -44,7 +44,7 @@ struct hair_draw_plan {
     struct hair_depth_test depth_test; // The test that computed opacity makes.
     uint32_t light_values; // Number of light values per vertex. 0 without self-shadowing.
 
-    // Written by hair_draw_run().
+    // Written by hair_draw_prepare().
     const struct hair_pose* head;
     bool has_occlusion; // Patches are tested for occlusion.
     struct hair_occlusion_params occlusion;

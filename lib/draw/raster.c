@@ -226,15 +226,15 @@ void hair_draw_rasterise(struct hair_renderer* renderer, struct hair_draw_plan* 
     size_t numbers = count_numbers(params, plan->draw);
     HAIR_ASSERT(raster->room >= numbers && raster->tile_room >= params->tiles + HAIR_TILE_FIRST);
     uint64_t segments = count_segments(renderer);
-    gl->BindTextureUnit(HAIR_UNIT_STRAND, renderer->strand_list.strand_texture);
-    gl->BindTextureUnit(HAIR_UNIT_TILE, raster->tile_texture);
+    hair_gl_bind_texture(gl, HAIR_UNIT_STRAND, renderer->strand_list.strand_texture);
+    hair_gl_bind_texture(gl, HAIR_UNIT_TILE, raster->tile_texture);
     if (plan->depth_test.depth) {
-        gl->BindTextureUnit(HAIR_UNIT_OCCLUSION, plan->depth_test.depth);
-        gl->BindSampler(HAIR_UNIT_OCCLUSION, gl->shadow_sampler[0]);
+        hair_gl_bind_texture(gl, HAIR_UNIT_OCCLUSION, plan->depth_test.depth);
+        hair_gl_bind_sampler(gl, HAIR_UNIT_OCCLUSION, gl->shadow_sampler[0]);
     }
-    gl->BindBuffersBase(GL_UNIFORM_BUFFER, HAIR_BIND_RASTER, 1, &raster->params);
-    gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_NEAREST, 2, buffers);
-    gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_COMMAND, 1, &renderer->strand_list.command);
+    hair_gl_bind_buffers(gl, GL_UNIFORM_BUFFER, HAIR_BIND_RASTER, 1, &raster->params);
+    hair_gl_bind_buffers(gl, GL_SHADER_STORAGE_BUFFER, HAIR_BIND_NEAREST, 2, buffers);
+    hair_gl_bind_buffers(gl, GL_SHADER_STORAGE_BUFFER, HAIR_BIND_COMMAND, 1, &renderer->strand_list.command);
     hair_gl_write_uniform(gl, raster->params, sizeof *params, params);
     run(gl, HAIR_GL_RASTER_CLEAR, plan, groups_for((numbers + 3) / 4));
     run(gl, HAIR_GL_RASTER, plan, groups_for(segments * params->split));

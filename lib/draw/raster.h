@@ -2,7 +2,7 @@
 #ifndef HAIR_DRAW_RASTER_H
 #define HAIR_DRAW_RASTER_H
 
-#include "lib/gl/gl.h"
+#include "lib/gl/commands.h"
 
 struct hair_raster {
     GLuint params, nearest, tile; // Buffers, as in shared.h. 0 until needed.

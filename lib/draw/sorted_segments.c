@@ -52,9 +52,9 @@ void hair_draw_sort(struct hair_renderer* renderer)
     GLuint sorts[] = {sorted_segments->bucket, sorted_segments->index};
     GLuint strands[] = {renderer->strand_list.strand, renderer->strand_list.command};
     uint32_t groups = (uint32_t)((sorted_segments->segments + HAIR_GROUP_SIZE - 1) / HAIR_GROUP_SIZE);
-    gl->ClearNamedBufferData(sorted_segments->bucket, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, NULL);
-    gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_HISTOGRAM, 2, sorts);
-    gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_STRAND, 2, strands);
+    hair_gl_fill_buffer(gl, sorted_segments->bucket, 0);
+    hair_gl_bind_buffers(gl, GL_SHADER_STORAGE_BUFFER, HAIR_BIND_HISTOGRAM, 2, sorts);
+    hair_gl_bind_buffers(gl, GL_SHADER_STORAGE_BUFFER, HAIR_BIND_STRAND, 2, strands);
     hair_gl_run(gl, HAIR_GL_HISTOGRAM, groups);
     hair_gl_run(gl, HAIR_GL_PREFIX_SUM, 1);
     hair_gl_run(gl, HAIR_GL_SCATTER, groups);
@@ -65,7 +65,7 @@ void hair_draw_issue_sorted_segments(struct hair_renderer* renderer)
     struct hair_gl* gl = renderer->gl;
     const uintptr_t first = HAIR_SORTED_COMMAND * sizeof(struct hair_draw_command);
     HAIR_ASSERT(renderer->sorted_segments.vertex_array && renderer->strand_list.command);
-    gl->BindTextureUnit(HAIR_UNIT_STRAND, renderer->strand_list.strand_texture);
+    hair_gl_bind_texture(gl, HAIR_UNIT_STRAND, renderer->strand_list.strand_texture);
     gl->BindVertexArray(renderer->sorted_segments.vertex_array);
     gl->BindBuffer(GL_DRAW_INDIRECT_BUFFER, renderer->strand_list.command);
     gl->Disable(GL_PRIMITIVE_RESTART);

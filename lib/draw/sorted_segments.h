@@ -3,7 +3,7 @@
 #ifndef HAIR_DRAW_SORTED_SEGMENTS_H
 #define HAIR_DRAW_SORTED_SEGMENTS_H
 
-#include "lib/gl/gl.h"
+#include "lib/gl/commands.h"
 
 struct hair_sorted_segments {
     GLuint bucket, index, vertex_array; // OpenGL objects. 0 until needed.

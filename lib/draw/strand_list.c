@@ -130,7 +130,7 @@ void hair_draw_update_strand_list(struct hair_renderer* renderer, const struct h
     struct hair_strand_list_key of = list_key(renderer, params);
     hair_gl_pass with = plan->has_occlusion ? HAIR_GL_WITH(OCCLUSION) : 0;
     if (!plan->has_occlusion && memcmp(&of, strand_list->key, sizeof of) == 0) return;
-    gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_START, 3, buffers);
+    hair_gl_bind_buffers(gl, GL_SHADER_STORAGE_BUFFER, HAIR_BIND_START, 3, buffers);
     hair_gl_run(gl, HAIR_GL_SCAN_STRANDS | with, 1);
     hair_gl_run(gl, HAIR_GL_COMPACT_STRANDS | with, renderer->geometry->patches);
     // No other view has the same occluded patches.
@@ -143,7 +143,7 @@ void hair_draw_issue_strand_list(struct hair_renderer* renderer, int paired)
     struct hair_gl* gl = renderer->gl;
     const uintptr_t first = paired ? HAIR_PAIRED_COMMAND * sizeof(struct hair_draw_command) : 0;
     HAIR_ASSERT(renderer->strand_list.indices[paired].segments == renderer->geometry->look.strand.segments);
-    gl->BindTextureUnit(HAIR_UNIT_STRAND, renderer->strand_list.strand_texture);
+    hair_gl_bind_texture(gl, HAIR_UNIT_STRAND, renderer->strand_list.strand_texture);
     gl->BindVertexArray(renderer->strand_list.indices[paired].vertex_array);
     gl->BindBuffer(GL_DRAW_INDIRECT_BUFFER, renderer->strand_list.command);
     gl->Disable(GL_PRIMITIVE_RESTART);

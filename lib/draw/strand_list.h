@@ -3,7 +3,7 @@
 #ifndef HAIR_DRAW_STRAND_LIST_H
 #define HAIR_DRAW_STRAND_LIST_H
 
-#include "lib/gl/gl.h"
+#include "lib/gl/commands.h"
 
 // Inputs that a list was built from.
 struct hair_strand_list_key {

@@ -62,20 +62,22 @@ static void write_listed_vertices(struct hair_renderer* renderer, const struct h
     struct hair_gl* gl = renderer->gl;
     struct hair_view_cache* view_cache = &renderer->view_cache;
     HAIR_ASSERT(view_cache->buffer[HAIR_VIEW_CACHE_POSITION]);
-    gl->BindTextureUnit(HAIR_UNIT_STRAND, renderer->strand_list.strand_texture);
-    gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_LIST_COMMAND, 1, &renderer->strand_list.command);
-    gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_CACHED_POSITION, HAIR_VIEW_CACHE_PARTS,
-                        view_cache->buffer);
+    hair_gl_bind_texture(gl, HAIR_UNIT_STRAND, renderer->strand_list.strand_texture);
+    hair_gl_bind_buffers(gl, GL_SHADER_STORAGE_BUFFER, HAIR_BIND_LIST_COMMAND, 1,
+                         &renderer->strand_list.command);
+    hair_gl_bind_buffers(gl, GL_SHADER_STORAGE_BUFFER, HAIR_BIND_CACHED_POSITION, HAIR_VIEW_CACHE_PARTS,
+                         view_cache->buffer);
     hair_gl_run_indirect(gl, plan->shade, plan->shade_program, renderer->strand_list.command,
                          HAIR_EXPAND_VIEW_COMMAND * sizeof(struct hair_draw_command));
     // Unbind the buffers before they can be deleted. Mesa unbinds a deleted buffer with
     // glBindBufferBase, which also clears the application's generic binding.
-    gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_CACHED_POSITION, HAIR_VIEW_CACHE_PARTS, NULL);
-    gl->BindTextureUnit(HAIR_UNIT_CACHED_POSITION, view_cache->texture[HAIR_VIEW_CACHE_POSITION]);
+    hair_gl_bind_buffers(gl, GL_SHADER_STORAGE_BUFFER, HAIR_BIND_CACHED_POSITION, HAIR_VIEW_CACHE_PARTS,
+                         NULL);
+    hair_gl_bind_texture(gl, HAIR_UNIT_CACHED_POSITION, view_cache->texture[HAIR_VIEW_CACHE_POSITION]);
     if (view_cache->texture[HAIR_VIEW_CACHE_TANGENT])
-        gl->BindTextureUnit(HAIR_UNIT_CACHED_TANGENT, view_cache->texture[HAIR_VIEW_CACHE_TANGENT]);
+        hair_gl_bind_texture(gl, HAIR_UNIT_CACHED_TANGENT, view_cache->texture[HAIR_VIEW_CACHE_TANGENT]);
     if (view_cache->texture[HAIR_VIEW_CACHE_SHADED])
-        gl->BindTextureUnit(HAIR_UNIT_SHADED, view_cache->texture[HAIR_VIEW_CACHE_SHADED]);
+        hair_gl_bind_texture(gl, HAIR_UNIT_SHADED, view_cache->texture[HAIR_VIEW_CACHE_SHADED]);
 }
 
 // Shade the vertices of the vertex cache.
@@ -84,13 +86,13 @@ static void shade_cached_vertices(struct hair_renderer* renderer, const struct h
 {
     struct hair_gl* gl = renderer->gl;
     HAIR_ASSERT(renderer->geometry->vertex_cache.shaded && chunks > 0);
-    gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_SHADED, 1,
-                        &renderer->geometry->vertex_cache.shaded);
+    hair_gl_bind_buffers(gl, GL_SHADER_STORAGE_BUFFER, HAIR_BIND_SHADED, 1,
+                         &renderer->geometry->vertex_cache.shaded);
     hair_gl_run_with(gl, plan->shade, plan->shade_program, renderer->geometry->patches * chunks);
     // Unbind the buffer before it can be deleted. Mesa unbinds a deleted buffer with
     // glBindBufferBase, which also clears the application's generic binding.
-    gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_SHADED, 1, NULL);
-    gl->BindTextureUnit(HAIR_UNIT_SHADED, renderer->geometry->vertex_cache.shaded_texture);
+    hair_gl_bind_buffers(gl, GL_SHADER_STORAGE_BUFFER, HAIR_BIND_SHADED, 1, NULL);
+    hair_gl_bind_texture(gl, HAIR_UNIT_SHADED, renderer->geometry->vertex_cache.shaded_texture);
 }
 
 void hair_draw_write_vertices(struct hair_renderer* renderer, const struct hair_draw_plan* plan,

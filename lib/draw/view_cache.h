@@ -3,7 +3,7 @@
 #ifndef HAIR_DRAW_VIEW_CACHE_H
 #define HAIR_DRAW_VIEW_CACHE_H
 
-#include "lib/gl/gl.h"
+#include "lib/gl/commands.h"
 
 enum { HAIR_VIEW_CACHE_POSITION, HAIR_VIEW_CACHE_TANGENT, HAIR_VIEW_CACHE_SHADED, HAIR_VIEW_CACHE_PARTS };
 

@@ -88,8 +88,8 @@ static void bind_grid(struct hair_body_grid* grid, const struct hair_body_params
     const GLuint storage[] = {grid->position, grid->triangle, grid->nearest, grid->pool->nodes,
                               grid->crossing, grid->point,    grid->before,  grid->change};
     hair_gl_write_uniform(gl, grid->params, sizeof *params, params);
-    gl->BindBuffersBase(GL_UNIFORM_BUFFER, HAIR_BIND_BODY, 1, &grid->params);
-    gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_BODY_POSITION, 8, storage);
+    hair_gl_bind_buffers(gl, GL_UNIFORM_BUFFER, HAIR_BIND_BODY, 1, &grid->params);
+    hair_gl_bind_buffers(gl, GL_SHADER_STORAGE_BUFFER, HAIR_BIND_BODY_POSITION, 8, storage);
 }
 
 static uint32_t groups_of(uint32_t threads)
@@ -135,10 +135,10 @@ void hair_body_grid_update(struct hair_body_grid* grid, const float* positions)
     // The GPU copies the positions, in order with the dispatches of the last update.
     hair_gl_write_uniform(gl, grid->upload, (size_t)bytes, positions);
     bool is_first = !grid->has_shape;
-    if (is_first) gl->CopyNamedBufferSubData(grid->upload, grid->before, 0, 0, bytes);
+    if (is_first) hair_gl_copy_buffer(gl, grid->upload, grid->before, 0, 0, bytes);
     if (!is_first) keep_last_shape(grid);
     grid->has_shape = true;
-    gl->CopyNamedBufferSubData(grid->upload, grid->position, 0, 0, bytes);
+    hair_gl_copy_buffer(gl, grid->upload, grid->position, 0, 0, bytes);
     compute_nodes(grid, is_first);
 }
 
@@ -160,9 +160,9 @@ hair_result hair_body_grid_update_from(struct hair_body_grid* grid, const struct
     params.given_stride = input->stride;
     keep_last_shape(grid);
     bind_grid(grid, &params);
-    gl->BindBuffersRange(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_GIVEN, 1, &input->buffer, &at, &size);
+    hair_gl_bind_ranges(gl, GL_SHADER_STORAGE_BUFFER, HAIR_BIND_GIVEN, 1, &input->buffer, &at, &size);
     // Shaders of the application may have written the buffer.
-    gl->MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+    hair_gl_barrier(gl, GL_SHADER_STORAGE_BARRIER_BIT);
     hair_gl_run(gl, HAIR_GL_BODY_UNPACK, groups_of(grid->vertex_count));
     compute_nodes(grid, false);
     return HAIR_OK;

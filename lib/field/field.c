@@ -167,11 +167,11 @@ static void run_pass(struct hair_collider_field* field, hair_gl_pass pass,
     const GLintptr begin[] = {at[part], at[1]};
     const GLsizeiptr size[] = {length[part], length[1]};
     if (!bricks) return;
-    field->gl->BindBuffersRange(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_BRICK, 2, buffers, begin, size);
+    hair_gl_bind_ranges(field->gl, GL_SHADER_STORAGE_BUFFER, HAIR_BIND_BRICK, 2, buffers, begin, size);
     uint32_t max = field->gl->software ? MAX_COLLIDERS_SOFTWARE : MAX_COLLIDERS;
     for (uint32_t first = 0, end; first < bricks; first = end) {
         end = find_end(brick, first, bricks, max);
-        if (brick[first].round) field->gl->MemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+        if (brick[first].round) hair_gl_barrier(field->gl, GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
         hair_gl_run_part(field->gl, pass, first, end, bricks);
     }
 }
@@ -207,10 +207,10 @@ static hair_result dispatch_job(struct hair_collider_field* field, const struct 
     HAIR_TRY(result);
     if (plain) HAIR_TRY(hair_gl_ensure_program(gl, HAIR_GL_VOXELISE));
     if (job->with_meshes) HAIR_TRY(hair_gl_ensure_program(gl, HAIR_GL_VOXELISE_MESHES));
-    gl->BindTextureUnit(HAIR_UNIT_WORK, field->work_texture);
+    hair_gl_bind_texture(gl, HAIR_UNIT_WORK, field->work_texture);
     run_pass(field, HAIR_GL_VOXELISE, job->brick, plain, 2, at, length);
     if (job->with_meshes)
-        gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_NODE, 1, &field->sdf_pool->nodes);
+        hair_gl_bind_buffers(gl, GL_SHADER_STORAGE_BUFFER, HAIR_BIND_NODE, 1, &field->sdf_pool->nodes);
     run_pass(field, HAIR_GL_VOXELISE_MESHES, job->brick + plain, job->with_meshes, 3, at, length);
     return HAIR_OK;
 }
@@ -224,9 +224,9 @@ static hair_result write_marked(struct hair_collider_field* field)
     hair_field_begin(field, &job);
     while ((result = hair_field_next(field, &job)) == HAIR_OK && job.bricks) {
         if (!ran) {
-            gl->BindBuffersBase(GL_UNIFORM_BUFFER, HAIR_BIND_FIELD, 1, &field->params);
-            gl->BindImageTexture(HAIR_IMAGE_FIELD, field->distance, 0, GL_TRUE, 0, GL_READ_WRITE, GL_R16F);
-            gl->BindImageTexture(HAIR_IMAGE_COLLIDER, field->number, 0, GL_TRUE, 0, GL_READ_WRITE, GL_R32UI);
+            hair_gl_bind_buffers(gl, GL_UNIFORM_BUFFER, HAIR_BIND_FIELD, 1, &field->params);
+            hair_gl_bind_image(gl, HAIR_IMAGE_FIELD, field->distance, true, GL_READ_WRITE, GL_R16F);
+            hair_gl_bind_image(gl, HAIR_IMAGE_COLLIDER, field->number, true, GL_READ_WRITE, GL_R32UI);
         }
         ran = 1;
         result = dispatch_job(field, &job);
@@ -235,7 +235,7 @@ static hair_result write_marked(struct hair_collider_field* field)
     hair_field_end(field, &job);
     field->writes += ran != 0;
     // Order these writes before later writes to the field, and before readbacks by the application.
-    if (ran) gl->MemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT);
+    if (ran) hair_gl_barrier(gl, GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT);
     return result;
 }
 
@@ -294,9 +294,9 @@ void hair_field_bind(const struct hair_collider_field* field)
 {
     HAIR_ASSERT(hair_field_is_near(field));
     struct hair_gl* gl = field->gl;
-    gl->BindBuffersBase(GL_UNIFORM_BUFFER, HAIR_BIND_FIELD, 1, &field->params);
-    gl->BindTextureUnit(HAIR_UNIT_FIELD, field->distance);
-    gl->BindTextureUnit(HAIR_UNIT_COLLIDER, field->number);
-    gl->BindSampler(HAIR_UNIT_FIELD, 0);
-    gl->BindSampler(HAIR_UNIT_COLLIDER, 0);
+    hair_gl_bind_buffers(gl, GL_UNIFORM_BUFFER, HAIR_BIND_FIELD, 1, &field->params);
+    hair_gl_bind_texture(gl, HAIR_UNIT_FIELD, field->distance);
+    hair_gl_bind_texture(gl, HAIR_UNIT_COLLIDER, field->number);
+    hair_gl_bind_sampler(gl, HAIR_UNIT_FIELD, 0);
+    hair_gl_bind_sampler(gl, HAIR_UNIT_COLLIDER, 0);
 }

@@ -9,7 +9,7 @@
 
 #include "lib/field/sdf_pool.h"
 #include "lib/field/field_bounds.h"
-#include "lib/gl/gl.h"
+#include "lib/gl/commands.h"
 
 struct hair_collider_field {
     struct hair_gl* gl;

@@ -44,9 +44,8 @@ static void move_sdf(struct hair_sdf_pool* pool, GLuint buffer, struct hair_pool
 {
     size_t count = count_nodes(pooled->mesh);
     HAIR_ASSERT(pool->used + count <= pool->room);
-    pool->gl->CopyNamedBufferSubData(pool->nodes, buffer, (GLintptr)(pooled->first * sizeof(float)),
-                                     (GLintptr)(pool->used * sizeof(float)),
-                                     (GLsizeiptr)(count * sizeof(float)));
+    hair_gl_copy_buffer(pool->gl, pool->nodes, buffer, (GLintptr)(pooled->first * sizeof(float)),
+                        (GLintptr)(pool->used * sizeof(float)), (GLsizeiptr)(count * sizeof(float)));
     pooled->first = (uint32_t)pool->used;
     pool->used += count;
 }

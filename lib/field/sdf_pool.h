@@ -4,7 +4,7 @@
 #define HAIR_FIELD_SDF_POOL_H
 
 #include "lib/collide/collision_mesh.h"
-#include "lib/gl/gl.h"
+#include "lib/gl/commands.h"
 
 struct hair_pooled_sdf {
     const hair_collision_mesh* mesh; // Referenced mesh. NULL if the place is free.

@@ -1,6 +1,6 @@
 // buffer.c - creation of buffers and textures. The error flag belongs to the application, so
 // success is checked by querying sizes.
-#include "lib/gl/gl.h"
+#include "lib/gl/commands.h"
 
 #include <string.h>
 
@@ -129,18 +129,13 @@ hair_result hair_gl_uniform(struct hair_gl* gl, hair_gl_category category, const
     return HAIR_OK;
 }
 
-void hair_gl_write_uniform(struct hair_gl* gl, GLuint buffer, size_t size, const void* data)
-{
-    HAIR_ASSERT(buffer && size > 0);
-    gl->NamedBufferData(buffer, (GLsizeiptr)size, data, GL_STREAM_DRAW);
-}
-
 hair_result hair_gl_resize(struct hair_gl* gl, const char* label, size_t size, const void* data,
                            GLuint buffer)
 {
     HAIR_ASSERT(buffer && size > 0);
     uint64_t was = buffer_bytes(gl, buffer), got;
     if (size > was) HAIR_TRY(hair_gl_memory_ask(gl, label, size - was));
+    hair_gl_begin_write(gl, buffer);
     gl->NamedBufferData(buffer, (GLsizeiptr)size, data, GL_STREAM_DRAW);
     got = buffer_bytes(gl, buffer);
     hair_gl_memory_resize(gl, buffer, got);
@@ -183,6 +178,7 @@ void hair_gl_read_parts(struct hair_gl* gl, GLuint buffer, const struct hair_gl_
     size_t size = 0, at = 0;
     for (uint32_t i = 0; i < count; ++i) size += parts[i].size;
     HAIR_ASSERT(buffer && size > 0);
+    hair_gl_flush(gl);
     // At the limit of memory, a buffer is read directly.
     if (hair_gl_memory_allows(&gl->memory, size)) gl->CreateBuffers(1, &copy);
     if (copy) {
@@ -301,13 +297,16 @@ void hair_gl_free_buffer(struct hair_gl* gl, GLuint* buffer)
 {
     if (!*buffer) return;
     hair_gl_memory_remove(gl, false, *buffer);
+    hair_gl_forget(gl, false, *buffer);
     gl->DeleteBuffers(1, buffer);
     *buffer = 0;
 }
 
 void hair_gl_free_buffer_texture(struct hair_gl* gl, GLuint* texture)
 {
-    if (*texture) gl->DeleteTextures(1, texture);
+    if (!*texture) return;
+    hair_gl_forget(gl, true, *texture);
+    gl->DeleteTextures(1, texture);
     *texture = 0;
 }
 
@@ -315,6 +314,7 @@ void hair_gl_free_texture(struct hair_gl* gl, GLuint* texture)
 {
     if (!*texture) return;
     hair_gl_memory_remove(gl, true, *texture);
+    hair_gl_forget(gl, true, *texture);
     gl->DeleteTextures(1, texture);
     *texture = 0;
 }

@@ -2,6 +2,8 @@
 // passes of a category share a pair of timestamps.
 #include "lib/gl/frame_profiler.h"
 
+#include "lib/gl/commands.h"
+
 #include <string.h>
 
 static const char* const labels[] = {
@@ -56,7 +58,7 @@ void hair_gl_profiler_begin(struct hair_gl* gl, hair_gl_pass pass)
     frame->pass[category] = pass;
     int same = frame->spans > 0 && frame->category[frame->spans - 1] == category;
     frame->is_full |= !same && frame->spans == HAIR_GL_SPANS;
-    if (!gl->timings || same || frame->is_full) return;
+    if (!gl->timings || same || frame->is_full || hair_gl_is_recording(gl)) return;
     if (!frame->query[0][0]) gl->CreateQueries(GL_TIMESTAMP, 2 * HAIR_GL_SPANS, frame->query[0]);
     if (!frame->query[0][0]) return; // The driver has made no queries, so nothing is timed.
     gl->QueryCounter(frame->query[frame->spans][0], GL_TIMESTAMP);
@@ -65,7 +67,7 @@ void hair_gl_profiler_begin(struct hair_gl* gl, hair_gl_pass pass)
 
 void hair_gl_profiler_end(struct hair_gl* gl, hair_gl_pass pass)
 {
-    if (!gl->profiler || !gl->timings) return;
+    if (!gl->profiler || !gl->timings || hair_gl_is_recording(gl)) return;
     struct hair_gl_frame* frame = hair_gl_profiler_frame(gl->profiler, gl->profiler->number);
     if (frame->spans > 0 && !frame->is_full && frame->category[frame->spans - 1] == category_of(pass))
         gl->QueryCounter(frame->query[frame->spans - 1][1], GL_TIMESTAMP);

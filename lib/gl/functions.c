@@ -1,6 +1,6 @@
 // functions.c - table of OpenGL functions, loaded once per context. It is private, so that it
 // collides with no loader.
-#include "lib/gl/gl.h"
+#include "lib/gl/commands.h"
 
 #include <string.h>
 
@@ -150,6 +150,7 @@ hair_result hair_gl_load(struct hair_gl* gl, const hair_context_desc* desc)
     const char* renderer = (const char*)gl->GetString(GL_RENDERER);
     gl->software = renderer && (strstr(renderer, "llvmpipe") || strstr(renderer, "softpipe") ||
                                 strstr(renderer, "SwiftShader"));
+    gl->records = !gl->software;
     gl->dispatch_ms = HAIR_GL_DISPATCH_MS;
     gl->GetIntegerv(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &gl->max_storage_bytes);
     gl->GetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &gl->max_buffer_texels);
@@ -216,6 +217,7 @@ hair_result hair_gl_create(struct hair_gl* gl, const hair_host* host, const hair
 void hair_gl_destroy(struct hair_gl* gl)
 {
     hair_gl_free_programs(gl);
+    hair_gl_free_recorder(gl);
     if (gl->vertex_array) gl->DeleteVertexArrays(1, &gl->vertex_array);
     if (gl->own_buffer) gl->DeleteBuffers(1, &gl->own_buffer);
     if (gl->idle_feedback) gl->DeleteTransformFeedbacks(1, &gl->idle_feedback);

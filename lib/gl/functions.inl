@@ -12,6 +12,7 @@ FUNCTION(void, BindImageTexture, (GLuint, GLuint, GLint, GLboolean, GLint, GLenu
 FUNCTION(void, BindSampler, (GLuint, GLuint))
 FUNCTION(void, BindTexture, (GLenum, GLuint))
 FUNCTION(void, BindTextureUnit, (GLuint, GLuint))
+FUNCTION(void, BindTextures, (GLuint, GLsizei, const GLuint*))
 FUNCTION(void, BindTransformFeedback, (GLenum, GLuint))
 FUNCTION(void, BindVertexArray, (GLuint))
 FUNCTION(void, BlendEquationSeparatei, (GLuint, GLenum, GLenum))

@@ -109,7 +109,7 @@ struct hair_gl_shader {
 };
 
 struct hair_gl_profiler;
-
+struct hair_gl_recorder;
 struct hair_gl_allocation;
 
 // Memory of buffers and textures, in bytes.
@@ -170,6 +170,8 @@ struct hair_gl {
     // Outer tessellation level that holds the number of isolines, 0. It is 1 on a driver that swaps
     // the levels.
     int lines_level;
+    bool records; // True if a GPU profits from passes of several instances side by side.
+    struct hair_gl_recorder* recorder; // Commands of several instances. NULL until first needed.
     struct hair_gl_saved saved;
 #define FUNCTION(type, name, parameters) type(APIENTRY* name) parameters;
 #include "lib/gl/functions.inl"
@@ -286,6 +288,8 @@ void hair_gl_enter(struct hair_gl* gl);
 // Enter for work of one instance. `owner` owns the memory that is allocated until
 // hair_gl_leave(), and `profiler` counts the passes. NULL `profiler` counts none.
 void hair_gl_enter_for(struct hair_gl* gl, struct hair_gl_owner* owner, struct hair_gl_profiler* profiler);
+// Set the owner and the profiler of what follows, between hair_gl_enter_for() and hair_gl_leave().
+void hair_gl_set_owner(struct hair_gl* gl, struct hair_gl_owner* owner, struct hair_gl_profiler* profiler);
 // Restore the application's state. Nothing is owned or counted from then on.
 void hair_gl_leave(struct hair_gl* gl);
 
@@ -320,6 +324,8 @@ GLenum hair_gl_find_texture_target(const struct hair_gl* gl, GLuint texture);
 void hair_gl_memory_set_limit(struct hair_gl* gl, uint64_t bytes);
 // Return whether `size` more bytes stay within the memory limit.
 bool hair_gl_memory_allows(const struct hair_gl_memory* memory, uint64_t size);
+// Make room to record one more object. Return false if memory is missing.
+bool hair_gl_memory_grow(struct hair_gl* gl);
 // Check whether `size` more bytes for `label` stay within the memory limit. Make room to record one
 // more object.
 hair_result hair_gl_memory_ask(struct hair_gl* gl, const char* label, uint64_t size);

@@ -28,22 +28,21 @@ static uint32_t find_slot(const struct hair_gl_memory* memory, GLuint name, bool
     return slot;
 }
 
-// Make room for one more object.
-static hair_result grow_objects(struct hair_gl* gl, const char* label)
+bool hair_gl_memory_grow(struct hair_gl* gl)
 {
     struct hair_gl_memory* memory = &gl->memory;
-    if (2 * (memory->count + 1) <= memory->room) return HAIR_OK;
+    if (2 * (memory->count + 1) <= memory->room) return true;
     struct hair_gl_memory grown = *memory;
     grown.room = memory->room ? 2 * memory->room : 64;
     grown.allocations = hair_alloc(&gl->host, grown.room, sizeof *grown.allocations);
-    if (!grown.allocations) return hair_fail_memory(&gl->host, label);
+    if (!grown.allocations) return false;
     for (uint32_t i = 0; i < memory->room; ++i) {
         const struct hair_gl_allocation* old = &memory->allocations[i];
         if (old->name) grown.allocations[find_slot(&grown, old->name, old->is_texture)] = *old;
     }
     hair_free(&gl->host, memory->allocations);
     *memory = grown;
-    return HAIR_OK;
+    return true;
 }
 
 // Change the size of an object.
@@ -69,7 +68,8 @@ bool hair_gl_memory_allows(const struct hair_gl_memory* memory, uint64_t size)
 hair_result hair_gl_memory_ask(struct hair_gl* gl, const char* label, uint64_t size)
 {
     const struct hair_gl_memory* memory = &gl->memory;
-    if (hair_gl_memory_allows(memory, size)) return grow_objects(gl, label);
+    if (hair_gl_memory_allows(memory, size))
+        return hair_gl_memory_grow(gl) ? HAIR_OK : hair_fail_memory(&gl->host, label);
     return hair_fail(&gl->host, HAIR_ERROR_MEMORY,
                      "%s: %llu more bytes than the %llu in use would be beyond the limit of %llu", label,
                      (unsigned long long)size, (unsigned long long)memory->bytes,

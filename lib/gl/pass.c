@@ -1,4 +1,5 @@
 // pass.c - programs of passes, and running a pass with its debug group, timer and memory barrier.
+#include "lib/gl/commands.h"
 #include "lib/gl/frame_profiler.h"
 
 #include <string.h>
@@ -73,6 +74,8 @@ void hair_gl_begin(struct hair_gl* gl, hair_gl_pass pass)
     struct hair_gl_program* own = hair_gl_find(gl, pass);
     HAIR_ASSERT(own);
     own->is_warm = true;
+    hair_gl_profiler_begin(gl, pass);
+    if (hair_gl_is_recording(gl)) return;
     struct hair_gl_timer* timer = &own->timer;
     gl->PushDebugGroup(GL_DEBUG_SOURCE_THIRD_PARTY, (GLuint)pass, -1, own->label);
     // Use timestamps, because the application may have an elapsed-time query active.
@@ -84,13 +87,13 @@ void hair_gl_begin(struct hair_gl* gl, hair_gl_pass pass)
         hair_gl_pass_ms(gl, own); // Read the results before the slot is reused.
         write_time(gl, timer->query[timer->begun % HAIR_GL_TIMER_DEPTH][0]);
     }
-    hair_gl_profiler_begin(gl, pass);
-    gl->UseProgram(own->program);
+    hair_gl_use_program(gl, own->program);
 }
 
 void hair_gl_end(struct hair_gl* gl, hair_gl_pass pass)
 {
     HAIR_ASSERT(hair_gl_find(gl, pass));
+    if (hair_gl_is_recording(gl)) return;
     struct hair_gl_timer* timer = &hair_gl_find(gl, pass)->timer;
     hair_gl_profiler_end(gl, pass);
     if (gl->timings) write_time(gl, timer->query[timer->begun % HAIR_GL_TIMER_DEPTH][1]);
@@ -100,8 +103,9 @@ void hair_gl_end(struct hair_gl* gl, hair_gl_pass pass)
 
 static void wait_for_writes(struct hair_gl* gl)
 {
-    gl->MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT |
-                      GL_BUFFER_UPDATE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT | GL_ELEMENT_ARRAY_BARRIER_BIT);
+    hair_gl_barrier(gl, GL_SHADER_STORAGE_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT |
+                            GL_BUFFER_UPDATE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT |
+                            GL_ELEMENT_ARRAY_BARRIER_BIT);
 }
 
 // Return the wall time in ms. The C library of Windows has no timespec_get(), and its clock() tells
@@ -121,14 +125,6 @@ double hair_gl_now(void)
 struct groups {
     uint32_t first, end, all;
 };
-
-// Run `count` work groups from `first` on.
-static void dispatch_part(struct hair_gl* gl, GLuint program, uint32_t first, uint32_t count, uint32_t all)
-{
-    HAIR_ASSERT(0 < count && count <= HAIR_MAX_GROUPS && count <= all && first <= all - count);
-    if (count < all) gl->ProgramUniform2ui(program, HAIR_LOCATION_GROUPS, first, all);
-    gl->DispatchCompute(count, 1, 1);
-}
 
 // Return the work groups in a dispatch of a GPU.
 static uint32_t find_max_groups(struct hair_gl* gl, GLuint program)
@@ -166,7 +162,7 @@ static uint32_t dispatch_by_time(struct hair_gl* gl, struct hair_gl_program* own
     uint32_t count = 0, part = expect_groups(PROBE, own->ms_per_group, max);
     for (uint32_t first = groups.first; first < groups.end; first += count) {
         count = groups.end - first < part ? groups.end - first : part;
-        dispatch_part(gl, program, first, count, groups.all);
+        hair_gl_dispatch(gl, program, first, count, groups.all);
         wait_for_writes(gl);
         double end = hair_gl_now();
         part = expect_groups(PART, (end - begun) / count, MAX_GROWTH * count);
@@ -184,7 +180,7 @@ static uint32_t dispatch_by_count(struct hair_gl* gl, struct hair_gl_program* ow
     if (!own->max_groups) own->max_groups = find_max_groups(gl, program);
     for (uint32_t first = groups.first; first < groups.end; first += count) {
         count = groups.end - first < own->max_groups ? groups.end - first : own->max_groups;
-        dispatch_part(gl, program, first, count, groups.all);
+        hair_gl_dispatch(gl, program, first, count, groups.all);
     }
     wait_for_writes(gl); // The parts do not read what others write.
     return count;
@@ -193,10 +189,11 @@ static uint32_t dispatch_by_count(struct hair_gl* gl, struct hair_gl_program* ow
 static void dispatch(struct hair_gl* gl, struct hair_gl_program* own, GLuint program, struct groups groups)
 {
     HAIR_ASSERT(own && program && groups.first < groups.end && groups.end <= groups.all);
-    uint32_t last = gl->software ? dispatch_by_time(gl, own, program, groups)
-                                 : dispatch_by_count(gl, own, program, groups);
+    bool by_time = gl->software && !hair_gl_is_recording(gl);
+    uint32_t last =
+        by_time ? dispatch_by_time(gl, own, program, groups) : dispatch_by_count(gl, own, program, groups);
     // The next call may dispatch all groups at once.
-    if (last < groups.all) gl->ProgramUniform2ui(program, HAIR_LOCATION_GROUPS, 0, 0);
+    if (last < groups.all) hair_gl_dispatch_whole(gl, program);
 }
 
 void hair_gl_run_part(struct hair_gl* gl, hair_gl_pass pass, uint32_t first, uint32_t end, uint32_t groups)
@@ -218,7 +215,7 @@ void hair_gl_run_with(struct hair_gl* gl, hair_gl_pass pass, GLuint program, uin
     if (groups == 0) return;
     HAIR_ASSERT(program);
     hair_gl_begin(gl, pass);
-    gl->UseProgram(program);
+    hair_gl_use_program(gl, program);
     dispatch(gl, hair_gl_find(gl, pass), program, (struct groups){0, groups, groups});
     hair_gl_end(gl, pass);
 }
@@ -227,16 +224,15 @@ void hair_gl_run_indirect(struct hair_gl* gl, hair_gl_pass pass, GLuint program,
 {
     HAIR_ASSERT(program && buffer && at % 4 == 0);
     hair_gl_begin(gl, pass);
-    gl->UseProgram(program);
-    if (gl->software) {
+    hair_gl_use_program(gl, program);
+    if (gl->software && !hair_gl_is_recording(gl)) {
         GLuint groups[3] = {0};
         gl->GetNamedBufferSubData(buffer, (GLintptr)at, sizeof groups, groups);
         HAIR_ASSERT(groups[0] <= HAIR_MAX_GROUPS && groups[1] <= HAIR_MAX_GROUPS);
         uint32_t all = groups[0] * groups[1];
         if (all) dispatch(gl, hair_gl_find(gl, pass), program, (struct groups){0, all, all});
     } else {
-        gl->BindBuffer(GL_DISPATCH_INDIRECT_BUFFER, buffer);
-        gl->DispatchComputeIndirect((GLintptr)at);
+        hair_gl_dispatch_indirect(gl, program, buffer, at);
         wait_for_writes(gl);
     }
     hair_gl_end(gl, pass);

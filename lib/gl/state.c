@@ -132,6 +132,11 @@ void hair_gl_enter_for(struct hair_gl* gl, struct hair_gl_owner* owner, struct h
 {
     HAIR_ASSERT(!gl->owner && !gl->profiler);
     hair_gl_enter(gl);
+    hair_gl_set_owner(gl, owner, profiler);
+}
+
+void hair_gl_set_owner(struct hair_gl* gl, struct hair_gl_owner* owner, struct hair_gl_profiler* profiler)
+{
     gl->owner = owner;
     gl->profiler = profiler;
 }

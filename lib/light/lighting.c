@@ -76,9 +76,9 @@ void hair_lighting_write_params(const struct hair_lighting* lighting, const hair
 void hair_lighting_bind(struct hair_lighting* lighting, const hair_look* look, const hair_view* view)
 {
     struct hair_gl* gl = lighting->gl;
-    if (lighting->fibres.texture) gl->BindTextureUnit(HAIR_UNIT_FIBRE, lighting->fibres.texture);
-    gl->BindSampler(HAIR_UNIT_FIBRE, 0);
+    if (lighting->fibres.texture) hair_gl_bind_texture(gl, HAIR_UNIT_FIBRE, lighting->fibres.texture);
+    hair_gl_bind_sampler(gl, HAIR_UNIT_FIBRE, 0);
     if (hair_lighting_value_count(look, view))
-        gl->BindTextureUnit(HAIR_UNIT_LIGHT, lighting->self_shadow.texture);
+        hair_gl_bind_texture(gl, HAIR_UNIT_LIGHT, lighting->self_shadow.texture);
     hair_lighting_bind_shadow_maps(lighting, view);
 }

@@ -93,8 +93,8 @@ bool hair_lighting_is_blocked(const hair_view* view)
 
 void hair_lighting_unbind(struct hair_lighting* lighting)
 {
-    if (lighting->map_views) lighting->gl->DeleteTextures(lighting->map_views, lighting->map_view);
-    lighting->map_views = 0;
+    while (lighting->map_views)
+        hair_gl_free_buffer_texture(lighting->gl, &lighting->map_view[--lighting->map_views]);
 }
 
 // Return a map, or a 2D view of a layer of it. The view lives until hair_lighting_unbind().
@@ -116,8 +116,8 @@ static void bind_map(struct hair_lighting* lighting, GLuint unit, GLuint texture
 {
     struct hair_gl* gl = lighting->gl;
     if (!texture) return;
-    gl->BindTextureUnit(unit, find_layer(lighting, texture, layer));
-    gl->BindSampler(unit, gl->shadow_sampler[is_reversed]);
+    hair_gl_bind_texture(gl, unit, find_layer(lighting, texture, layer));
+    hair_gl_bind_sampler(gl, unit, gl->shadow_sampler[is_reversed]);
 }
 
 void hair_lighting_bind_shadow_maps(struct hair_lighting* lighting, const hair_view* view)

@@ -153,10 +153,10 @@ void hair_contacts_bind(const struct hair_sim* sim)
     const struct hair_contacts* contacts = &sim->contacts;
     if (contacts->listed) {
         HAIR_ASSERT(contacts->collider_texture && contacts->cell_texture);
-        sim->gl->BindTextureUnit(HAIR_UNIT_CONTACT, contacts->collider_texture);
-        sim->gl->BindTextureUnit(HAIR_UNIT_CELL, contacts->cell_texture);
+        hair_gl_bind_texture(sim->gl, HAIR_UNIT_CONTACT, contacts->collider_texture);
+        hair_gl_bind_texture(sim->gl, HAIR_UNIT_CELL, contacts->cell_texture);
     }
-    if (contacts->holds) sim->gl->BindTextureUnit(HAIR_UNIT_NODE, contacts->sdf_pool->texture);
+    if (contacts->holds) hair_gl_bind_texture(sim->gl, HAIR_UNIT_NODE, contacts->sdf_pool->texture);
 }
 
 void hair_contacts_free(struct hair_sim* sim)

@@ -68,7 +68,7 @@ static void run_phase(struct hair_sim* sim, hair_gl_pass pass, int* at)
     struct hair_gl* gl = sim->gl;
     int to = pass == HAIR_GL_FEEDBACK_END ? GUIDES : *at == 0;
     HAIR_ASSERT(0 <= *at && *at < HAIR_FEEDBACK_STATES && to != *at);
-    gl->BindTextureUnit(HAIR_UNIT_STATE, sim->feedback.texture[*at]);
+    hair_gl_bind_texture(gl, HAIR_UNIT_STATE, sim->feedback.texture[*at]);
     gl->BindTransformFeedback(GL_TRANSFORM_FEEDBACK, sim->feedback.captured[to]);
     hair_gl_begin(gl, pass);
     gl->BeginTransformFeedback(GL_POINTS);
@@ -100,9 +100,9 @@ void hair_feedback_run(struct hair_sim* sim, const struct hair_step_params* para
     struct hair_step_params own = *params;
     struct hair_gl_capture was;
     hair_gl_begin_capture(gl, sim->feedback.framebuffer, &was);
-    gl->BindTextureUnit(HAIR_UNIT_REST, sim->feedback.rest_texture);
-    gl->BindTextureUnit(HAIR_UNIT_GUIDE, sim->feedback.guide_texture);
-    gl->BindTextureUnit(HAIR_UNIT_OWNER, sim->feedback.owner_texture);
+    hair_gl_bind_texture(gl, HAIR_UNIT_REST, sim->feedback.rest_texture);
+    hair_gl_bind_texture(gl, HAIR_UNIT_GUIDE, sim->feedback.guide_texture);
+    hair_gl_bind_texture(gl, HAIR_UNIT_OWNER, sim->feedback.owner_texture);
     for (uint32_t i = 0; i < params->substeps; ++i) {
         own.substep[0] = params->substep[i];
         hair_gl_write_uniform(gl, sim->step, sizeof own, &own);

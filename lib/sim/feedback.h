@@ -3,7 +3,7 @@
 #ifndef HAIR_SIM_FEEDBACK_H
 #define HAIR_SIM_FEEDBACK_H
 
-#include "lib/gl/gl.h"
+#include "lib/gl/commands.h"
 
 struct hair_sim;
 

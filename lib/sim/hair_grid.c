@@ -353,8 +353,8 @@ void hair_grid_update(struct hair_sim* sim)
     hair_grid_reset(sim);
     write_grid_params(sim, &params);
     hair_gl_write_uniform(gl, hair_grid->params, sizeof params, &params);
-    gl->BindBuffersBase(GL_UNIFORM_BUFFER, HAIR_BIND_HAIR_GRID_PARAMS, 1, &hair_grid->params);
-    gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_STATE, 6, storage);
+    hair_gl_bind_buffers(gl, GL_UNIFORM_BUFFER, HAIR_BIND_HAIR_GRID_PARAMS, 1, &hair_grid->params);
+    hair_gl_bind_buffers(gl, GL_SHADER_STORAGE_BUFFER, HAIR_BIND_STATE, 6, storage);
     hair_gl_run(gl, HAIR_GL_HAIR_GRID_CLEAR, (grid_fours(hair_grid) + HAIR_GROUP_SIZE - 1) / HAIR_GROUP_SIZE);
     hair_gl_run(gl, HAIR_GL_HAIR_GRID_SPLAT, groups);
     hair_gl_run(gl, HAIR_GL_HAIR_GRID_GATHER, groups);
@@ -362,7 +362,7 @@ void hair_grid_update(struct hair_sim* sim)
 
 void hair_grid_bind(struct hair_sim* sim)
 {
-    sim->gl->BindTextureUnit(HAIR_UNIT_ACCELERATION, sim->hair_grid.texture);
+    hair_gl_bind_texture(sim->gl, HAIR_UNIT_ACCELERATION, sim->hair_grid.texture);
 }
 
 void hair_grid_count(struct hair_sim* sim, uint32_t substeps)

@@ -8,7 +8,7 @@
 #define HAIR_SIM_HAIR_GRID_H
 
 #include "lib/base/math.h"
-#include "lib/gl/gl.h"
+#include "lib/gl/commands.h"
 
 #include <stdbool.h>
 

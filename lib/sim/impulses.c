@@ -239,13 +239,12 @@ hair_result hair_impulses_ensure(struct hair_sim* sim)
 void hair_impulses_bind(struct hair_sim* sim)
 {
     HAIR_ASSERT(sim->impulses.texture);
-    sim->gl->BindImageTexture(HAIR_IMAGE_IMPULSE, sim->impulses.texture, 0, GL_FALSE, 0, GL_READ_WRITE,
-                              GL_RGBA32F);
+    hair_gl_bind_image(sim->gl, HAIR_IMAGE_IMPULSE, sim->impulses.texture, false, GL_READ_WRITE, GL_RGBA32F);
 }
 
 void hair_impulses_end_dispatch(struct hair_sim* sim)
 {
-    sim->gl->MemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+    hair_gl_barrier(sim->gl, GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
 }
 
 // Note the colliders of the step, in the order of the solver.
@@ -273,19 +272,21 @@ void hair_impulses_end_step(struct hair_sim* sim)
     struct hair_impulse_slot* slot = &impulses->slot[number];
     const double radius = (double)sim->physics.fiber.radius;
     HAIR_ASSERT(impulses->used < HAIR_IMPULSE_SLOTS && !slot->fence);
+    bool was_recording = hair_gl_run_at_once(gl);
     note_colliders(sim, slot);
     memcpy(slot->head, sim->last_after.position, sizeof slot->head);
     slot->scale =
         HAIR_IMPULSE_UNIT * PI * radius * radius * (double)sim->physics.fiber.density * impulses->strands;
     hair_sim_bind(sim);
     hair_impulses_bind(sim);
-    gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_IMPULSE_SUM, 1, &impulses->sum);
+    hair_gl_bind_buffers(gl, GL_SHADER_STORAGE_BUFFER, HAIR_BIND_IMPULSE_SUM, 1, &impulses->sum);
     hair_gl_run(gl, HAIR_GL_SUM_IMPULSES, (sim->guide_vertices + HAIR_GROUP_SIZE - 1) / HAIR_GROUP_SIZE);
     GLsizeiptr bytes = (GLsizeiptr)(slot->count * BYTES);
     if (slot->count)
-        gl->CopyNamedBufferSubData(impulses->sum, impulses->readback, 0,
-                                   (GLintptr)(number * impulses->room * BYTES), bytes);
-    gl->ClearNamedBufferData(impulses->sum, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, NULL);
+        hair_gl_copy_buffer(gl, impulses->sum, impulses->readback, 0,
+                            (GLintptr)(number * impulses->room * BYTES), bytes);
+    hair_gl_fill_buffer(gl, impulses->sum, 0);
     slot->fence = gl->FenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
     if (slot->fence) ++impulses->used; // The driver may refuse a fence. The step is then not told.
+    hair_gl_record_again(gl, was_recording);
 }

@@ -8,7 +8,7 @@
 
 #include <hair/hair.h>
 
-#include "lib/gl/gl.h"
+#include "lib/gl/commands.h"
 
 #include <stdbool.h>
 

@@ -133,7 +133,7 @@ static void change_state(struct hair_sim* sim, const struct hair_new_lengths* ma
     if (!made->changed) return;
     hair_sim_bind(sim);
     if (sim->rods) hair_sim_bind_rods(sim);
-    gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_LENGTH_CHANGE, 1, &made->change);
+    hair_gl_bind_buffers(gl, GL_SHADER_STORAGE_BUFFER, HAIR_BIND_LENGTH_CHANGE, 1, &made->change);
     hair_gl_run(gl, change_pass(sim), (made->changed + HAIR_GROUP_SIZE - 1) / HAIR_GROUP_SIZE);
 }
 

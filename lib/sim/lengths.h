@@ -5,7 +5,7 @@
 #ifndef HAIR_SIM_LENGTHS_H
 #define HAIR_SIM_LENGTHS_H
 
-#include "lib/gl/gl.h"
+#include "lib/gl/commands.h"
 #include "lib/groom/groom.h"
 
 #include <stdbool.h>

@@ -213,7 +213,7 @@ hair_result hair_pins_write(struct hair_sim* sim)
 
 void hair_pins_bind(struct hair_sim* sim)
 {
-    sim->gl->BindTextureUnit(HAIR_UNIT_PIN, sim->pins.texture);
+    hair_gl_bind_texture(sim->gl, HAIR_UNIT_PIN, sim->pins.texture);
 }
 
 void hair_pins_teleport(struct hair_sim* sim, const struct hair_pose* from, const struct hair_pose* to)

@@ -4,7 +4,7 @@
 #define HAIR_SIM_PINS_H
 
 #include "lib/base/pose.h"
-#include "lib/gl/gl.h"
+#include "lib/gl/commands.h"
 #include "lib/rod/rod.h"
 
 // Maximum number of pins of an instance. Shaders count pins in floats.

@@ -46,8 +46,8 @@ static hair_result upload_state(const struct hair_serializer* s)
     HAIR_TRY(hair_gl_buffer(s->gl, HAIR_GL_NO_CATEGORY, "hair loaded", s->end, s->native, &source));
     for (uint32_t i = 0; i < s->buffers; ++i) HAIR_ASSERT(s->buffer[i].at + s->buffer[i].size <= s->end);
     for (uint32_t i = 0; i < s->buffers; ++i)
-        s->gl->CopyNamedBufferSubData(source, s->buffer[i].buffer, (GLintptr)s->buffer[i].at, 0,
-                                      (GLsizeiptr)s->buffer[i].size);
+        hair_gl_copy_buffer(s->gl, source, s->buffer[i].buffer, (GLintptr)s->buffer[i].at, 0,
+                            (GLsizeiptr)s->buffer[i].size);
     hair_gl_free_buffer(s->gl, &source);
     return HAIR_OK;
 }
@@ -77,8 +77,7 @@ static hair_result load_state(struct hair_sim* sim, const unsigned char* bytes, 
     if (has_lengths)
         result = hair_lengths_make(sim, loaded.guide_fraction, loaded.follower_fraction, &lengths);
     if (!result) result = upload_state(&s);
-    if (!result && sim->bend && s.lacks_bend)
-        sim->gl->ClearNamedBufferData(sim->bend, GL_R32F, GL_RED, GL_FLOAT, NULL);
+    if (!result && sim->bend && s.lacks_bend) hair_gl_fill_buffer(sim->gl, sim->bend, 0);
     if (!result && still) hair_scalp_motion_restore_rest(&own, still);
     hair_gl_free_buffer(sim->gl, &still);
     hair_free(host, s.native);

@@ -79,7 +79,7 @@ static void write_scalp(struct hair_sim* sim, int which, const float* positions)
     struct hair_scalp_motion* motion = &sim->scalp_motion;
     size_t size = scalp_size(motion);
     hair_gl_write_uniform(sim->gl, motion->upload, size, positions);
-    sim->gl->CopyNamedBufferSubData(motion->upload, motion->scalp[which], 0, 0, (GLsizeiptr)size);
+    hair_gl_copy_buffer(sim->gl, motion->upload, motion->scalp[which], 0, 0, (GLsizeiptr)size);
 }
 
 static void rest_scalp(struct hair_sim* sim)
@@ -129,7 +129,7 @@ hair_result hair_scalp_motion_make_rest(struct hair_sim* sim, GLuint* out)
 void hair_scalp_motion_restore_rest(struct hair_sim* sim, GLuint still)
 {
     GLsizeiptr size = (GLsizeiptr)(sim->guides * sizeof(struct hair_root_transform));
-    sim->gl->CopyNamedBufferSubData(still, sim->scalp_motion.root_transform, 0, 0, size);
+    hair_gl_copy_buffer(sim->gl, still, sim->scalp_motion.root_transform, 0, 0, size);
     rest_scalp(sim);
 }
 
@@ -154,19 +154,19 @@ static void bind_scalp(struct hair_sim* sim, GLuint scalp, struct hair_scalp_par
     params.guides = sim->guides;
     params.smooth_vertices = sim->smooth_vertices;
     hair_gl_write_uniform(gl, motion->params, sizeof params, &params);
-    gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_ROOT_TRANSFORM, 4, storage);
-    gl->BindBuffersBase(GL_UNIFORM_BUFFER, HAIR_BIND_SCALP_PARAMS, 1, &motion->params);
+    hair_gl_bind_buffers(gl, GL_SHADER_STORAGE_BUFFER, HAIR_BIND_ROOT_TRANSFORM, 4, storage);
+    hair_gl_bind_buffers(gl, GL_UNIFORM_BUFFER, HAIR_BIND_SCALP_PARAMS, 1, &motion->params);
 }
 
 void hair_unpack_positions(struct hair_gl* gl, GLuint buffer, size_t offset, size_t size, uint32_t vertices)
 {
     GLintptr at = (GLintptr)offset;
     GLsizeiptr whole = (GLsizeiptr)size;
-    gl->BindBuffersRange(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_GIVEN, 1, &buffer, &at, &whole);
+    hair_gl_bind_ranges(gl, GL_SHADER_STORAGE_BUFFER, HAIR_BIND_GIVEN, 1, &buffer, &at, &whole);
     // Shaders of the application may have written the buffer.
-    gl->MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+    hair_gl_barrier(gl, GL_SHADER_STORAGE_BARRIER_BIT);
     hair_gl_run(gl, HAIR_GL_UNPACK_POSITIONS, (vertices + HAIR_GROUP_SIZE - 1) / HAIR_GROUP_SIZE);
-    gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_GIVEN, 1, NULL);
+    hair_gl_bind_buffers(gl, GL_SHADER_STORAGE_BUFFER, HAIR_BIND_GIVEN, 1, NULL);
 }
 
 void hair_scalp_motion_set_buffer(struct hair_sim* sim, GLuint buffer, size_t offset, size_t size,

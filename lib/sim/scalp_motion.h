@@ -7,7 +7,7 @@
 #define HAIR_SIM_SCALP_MOTION_H
 
 #include "lib/base/pose.h"
-#include "lib/gl/gl.h"
+#include "lib/gl/commands.h"
 #include "lib/groom/scalp_binding.h"
 #include "lib/sim/scalp_skin.h"
 

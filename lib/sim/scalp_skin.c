@@ -59,8 +59,8 @@ void hair_scalp_skin_run(struct hair_gl* gl, const struct hair_scalp_skin* skin,
     HAIR_ASSERT(skin->upload && vertices > 0);
     // The GPU copies the joints, because writes of the CPU may overtake earlier dispatches.
     hair_gl_write_uniform(gl, skin->upload, size, joints);
-    gl->CopyNamedBufferSubData(skin->upload, skin->joint_buffer, 0, 0, (GLsizeiptr)size);
-    gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_VERTEX_JOINTS, 1, &skin->vertex_buffer);
-    gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_JOINT, 1, &skin->joint_buffer);
+    hair_gl_copy_buffer(gl, skin->upload, skin->joint_buffer, 0, 0, (GLsizeiptr)size);
+    hair_gl_bind_buffers(gl, GL_SHADER_STORAGE_BUFFER, HAIR_BIND_VERTEX_JOINTS, 1, &skin->vertex_buffer);
+    hair_gl_bind_buffers(gl, GL_SHADER_STORAGE_BUFFER, HAIR_BIND_JOINT, 1, &skin->joint_buffer);
     hair_gl_run(gl, HAIR_GL_SKIN_SCALP, (vertices + HAIR_GROUP_SIZE - 1) / HAIR_GROUP_SIZE);
 }

@@ -2,7 +2,7 @@
 #ifndef HAIR_SIM_SCALP_SKIN_H
 #define HAIR_SIM_SCALP_SKIN_H
 
-#include "lib/gl/gl.h"
+#include "lib/gl/commands.h"
 
 // All members are 0 while the scalp's vertices have no joints.
 struct hair_scalp_skin {

@@ -131,7 +131,7 @@ void hair_serialize_buffer(struct hair_serializer* s, const char* name, GLuint b
     if (!buffer) return;
     if (s->write && s->copies) {
         add_buffer(s, buffer, size);
-        s->gl->CopyNamedBufferSubData(buffer, s->copies, 0, (GLintptr)s->at, (GLsizeiptr)size);
+        hair_gl_copy_buffer(s->gl, buffer, s->copies, 0, (GLintptr)s->at, (GLsizeiptr)size);
     } else if (s->write) {
         hair_gl_read(s->gl, buffer, size, s->write + s->at);
         hair_serialize_native(s->write + s->at, size);

@@ -4,7 +4,7 @@
 #define HAIR_SIM_SERIALIZER_H
 
 #include "lib/base/pose.h"
-#include "lib/gl/gl.h"
+#include "lib/gl/commands.h"
 
 // Maximum of any number in a buffer. A solver itself resets hair that is too far.
 #define HAIR_MAX_STATE 1e9

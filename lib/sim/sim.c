@@ -106,10 +106,13 @@ static void bind_forces(struct hair_sim* sim, const struct hair_step_params* par
 
 static void run_solver(struct hair_sim* sim, struct hair_step_params* params)
 {
-    if (sim->feedback.wanted && !hair_scalp_motion_is_on(sim))
-        hair_feedback_run(sim, params);
-    else
+    if (!sim->feedback.wanted || hair_scalp_motion_is_on(sim)) {
         hair_sim_run_solver(sim, params);
+        return;
+    }
+    bool was_recording = hair_gl_run_at_once(sim->gl);
+    hair_feedback_run(sim, params);
+    hair_gl_record_again(sim->gl, was_recording);
 }
 
 // Count substeps in the blocks of forces. The next dispatch continues where this one ended.

@@ -6,7 +6,7 @@
 #include "lib/base/pose.h"
 #include "lib/collide/grid.h"
 #include "lib/field/sdf_pool.h"
-#include "lib/gl/gl.h"
+#include "lib/gl/commands.h"
 #include "lib/groom/groom.h"
 #include "lib/sim/wind_coupling.h"
 #include "lib/sim/hair_grid.h"

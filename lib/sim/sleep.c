@@ -192,11 +192,11 @@ static void request_measurement(struct hair_sim* sim)
     GLuint storage[] = {sim->state, sleep->anchor, sleep->activity};
     GLintptr at = (GLintptr)(2 * sizeof(uint32_t) * sleep->parity);
     hair_gl_write_uniform(gl, sleep->params, sizeof params, &params);
-    gl->BindBuffersBase(GL_UNIFORM_BUFFER, HAIR_BIND_ACTIVITY_PARAMS, 1, &sleep->params);
-    gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_STATE, 3, storage);
+    hair_gl_bind_buffers(gl, GL_UNIFORM_BUFFER, HAIR_BIND_ACTIVITY_PARAMS, 1, &sleep->params);
+    hair_gl_bind_buffers(gl, GL_SHADER_STORAGE_BUFFER, HAIR_BIND_STATE, 3, storage);
     hair_gl_run(gl, HAIR_GL_ACTIVITY, groups < MAX_GROUPS ? groups : MAX_GROUPS);
-    gl->CopyNamedBufferSubData(sleep->activity, sleep->readback, at, at, 2 * sizeof(uint32_t));
-    sleep->fence = gl->FenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
+    hair_gl_copy_buffer(gl, sleep->activity, sleep->readback, at, at, 2 * sizeof(uint32_t));
+    hair_gl_fence(gl, &sleep->fence);
     sleep->due = sleep->quiet_time + gaps[sleep->samples % ROUND];
     sleep->waits = sleep->samples > 0; // The first has no anchors.
     sleep->steps = 0;

@@ -11,7 +11,7 @@
 #define HAIR_SIM_SLEEP_H
 
 #include "lib/base/pose.h"
-#include "lib/gl/gl.h"
+#include "lib/gl/commands.h"
 
 #include <stdbool.h>
 

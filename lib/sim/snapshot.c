@@ -63,6 +63,7 @@ static hair_result begin_snapshot(struct hair_sim* sim)
     serialize(&s, sim);
     size_t size = s.at + HAIR_SAVE_TRAILER;
     HAIR_TRY(ensure(sim, size));
+    bool was_recording = hair_gl_run_at_once(gl);
     s = (struct hair_serializer){.host = &gl->host,
                                  .gl = gl,
                                  .write = snapshots->next.bytes,
@@ -74,6 +75,7 @@ static hair_result begin_snapshot(struct hair_sim* sim)
     snapshots->buffers = s.buffers;
     memcpy(snapshots->copied, s.buffer, sizeof snapshots->copied);
     snapshots->fence = gl->FenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
+    hair_gl_record_again(gl, was_recording);
     return HAIR_OK;
 }
 

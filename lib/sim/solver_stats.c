@@ -90,8 +90,8 @@ void hair_diagnosis_watch(struct hair_sim* sim, uint32_t substeps)
     hair_gl_write_uniform(gl, d->energy_params, sizeof params, &params);
     hair_sim_bind(sim);
     hair_sim_bind_rods(sim);
-    gl->BindBuffersBase(GL_UNIFORM_BUFFER, HAIR_BIND_ENERGY_PARAMS, 1, &d->energy_params);
-    gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_ENERGY, 1, &d->energy);
+    hair_gl_bind_buffers(gl, GL_UNIFORM_BUFFER, HAIR_BIND_ENERGY_PARAMS, 1, &d->energy_params);
+    hair_gl_bind_buffers(gl, GL_SHADER_STORAGE_BUFFER, HAIR_BIND_ENERGY, 1, &d->energy);
     hair_gl_run(gl, energy_pass(sim), (sim->guides + HAIR_GROUP_SIZE - 1) / HAIR_GROUP_SIZE);
     d->goes_on = 1;
     d->substep = sim->substep;
@@ -137,10 +137,10 @@ static hair_result find_motion(struct hair_sim* sim, uint32_t found[HAIR_FOUND_C
         HAIR_TRY(hair_gl_storage(gl, HAIR_GL_CATEGORY_DIAGNOSE, "hair motion found",
                                  HAIR_FOUND_COUNT * sizeof *found, NULL, &d->found));
     hair_gl_write_uniform(gl, d->motion_params, sizeof params, &params);
-    gl->ClearNamedBufferData(d->found, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, NULL);
+    hair_gl_fill_buffer(gl, d->found, 0);
     hair_sim_bind(sim);
-    gl->BindBuffersBase(GL_UNIFORM_BUFFER, HAIR_BIND_MOTION_PARAMS, 1, &d->motion_params);
-    gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_FOUND, 1, &d->found);
+    hair_gl_bind_buffers(gl, GL_UNIFORM_BUFFER, HAIR_BIND_MOTION_PARAMS, 1, &d->motion_params);
+    hair_gl_bind_buffers(gl, GL_SHADER_STORAGE_BUFFER, HAIR_BIND_FOUND, 1, &d->found);
     hair_gl_run(gl, HAIR_GL_MOTION_OF_GUIDES, (sim->guides + HAIR_GROUP_SIZE - 1) / HAIR_GROUP_SIZE);
     hair_gl_read(gl, d->found, HAIR_FOUND_COUNT * sizeof *found, found);
     return HAIR_OK;

@@ -4,7 +4,7 @@
 
 #include <hair/hair.h>
 
-#include "lib/gl/gl.h"
+#include "lib/gl/commands.h"
 
 struct hair_diagnosis {
     int wanted; // hair_desc.diagnose

@@ -5,15 +5,15 @@
 void hair_scalp_motion_bind(struct hair_sim* sim)
 {
     if (hair_scalp_motion_is_on(sim))
-        sim->gl->BindTextureUnit(HAIR_UNIT_ROOT_TRANSFORM, sim->scalp_motion.texture);
+        hair_gl_bind_texture(sim->gl, HAIR_UNIT_ROOT_TRANSFORM, sim->scalp_motion.texture);
 }
 
 void hair_sim_bind(struct hair_sim* sim)
 {
     GLuint storage[] = {sim->guide, sim->rest, sim->state};
-    sim->gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_GUIDE, 3, storage);
-    sim->gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_SOLVER_STATS, 1, &sim->solver_stats);
-    sim->gl->BindBuffersBase(GL_UNIFORM_BUFFER, HAIR_BIND_STEP, 1, &sim->step);
+    hair_gl_bind_buffers(sim->gl, GL_SHADER_STORAGE_BUFFER, HAIR_BIND_GUIDE, 3, storage);
+    hair_gl_bind_buffers(sim->gl, GL_SHADER_STORAGE_BUFFER, HAIR_BIND_SOLVER_STATS, 1, &sim->solver_stats);
+    hair_gl_bind_buffers(sim->gl, GL_UNIFORM_BUFFER, HAIR_BIND_STEP, 1, &sim->step);
     hair_scalp_motion_bind(sim);
 }
 
@@ -21,7 +21,7 @@ void hair_sim_bind_rods(struct hair_sim* sim)
 {
     GLuint storage[] = {sim->rod, sim->history, sim->material, sim->solver_stats,
                         sim->bend ? sim->bend : sim->reduction};
-    sim->gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_ROD, 5, storage);
+    hair_gl_bind_buffers(sim->gl, GL_SHADER_STORAGE_BUFFER, HAIR_BIND_ROD, 5, storage);
 }
 
 uint32_t hair_sim_contacts(const struct hair_sim* sim)
@@ -88,8 +88,8 @@ void hair_targets_bind(struct hair_sim* sim)
     struct hair_targets* targets = &sim->targets;
     GLuint storage[] = {targets->position[0], targets->target};
     HAIR_ASSERT(hair_targets_are_on(sim));
-    sim->gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_TARGET_POSITION, 2, storage);
-    sim->gl->BindBuffersBase(GL_UNIFORM_BUFFER, HAIR_BIND_TARGET_PARAMS, 1, &targets->params);
+    hair_gl_bind_buffers(sim->gl, GL_SHADER_STORAGE_BUFFER, HAIR_BIND_TARGET_POSITION, 2, storage);
+    hair_gl_bind_buffers(sim->gl, GL_UNIFORM_BUFFER, HAIR_BIND_TARGET_PARAMS, 1, &targets->params);
 }
 
 hair_gl_pass hair_sim_smooth_pass(const struct hair_sim* sim, bool is_skinned, bool has_targets)

@@ -53,7 +53,7 @@ static hair_result write_weights(struct hair_sim* sim, float weight, const float
         hair_gl_buffer(gl, HAIR_GL_CATEGORY_TARGETS, "hair target weights", size, weights, &source);
     hair_free(&gl->host, weights);
     HAIR_TRY(result);
-    gl->CopyNamedBufferSubData(source, sim->targets.weight, 0, 0, (GLsizeiptr)size);
+    hair_gl_copy_buffer(gl, source, sim->targets.weight, 0, 0, (GLsizeiptr)size);
     hair_gl_free_buffer(gl, &source);
     return HAIR_OK;
 }
@@ -166,7 +166,7 @@ void hair_targets_set(struct hair_sim* sim, const float* positions, const struct
     uint64_t hash = hair_hash_bytes(HAIR_HASH_BEGIN, positions, size);
     stop_fading(sim);
     hair_gl_write_uniform(sim->gl, targets->upload, size, positions);
-    sim->gl->CopyNamedBufferSubData(targets->upload, targets->position[1], 0, 0, (GLsizeiptr)size);
+    hair_gl_copy_buffer(sim->gl, targets->upload, targets->position[1], 0, 0, (GLsizeiptr)size);
     set_space(sim, space, hair_hash_bytes(hash, space, sizeof *space) | 1);
 }
 
@@ -179,8 +179,8 @@ void hair_targets_set_buffer(struct hair_sim* sim, GLuint buffer, size_t offset,
     struct hair_scalp_params params = {.first = first, .stride = stride, .vertices = sim->guide_vertices};
     stop_fading(sim);
     hair_gl_write_uniform(gl, targets->unpack_params, sizeof params, &params);
-    gl->BindBuffersBase(GL_UNIFORM_BUFFER, HAIR_BIND_SCALP_PARAMS, 1, &targets->unpack_params);
-    gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_SCALP, 1, &targets->position[1]);
+    hair_gl_bind_buffers(gl, GL_UNIFORM_BUFFER, HAIR_BIND_SCALP_PARAMS, 1, &targets->unpack_params);
+    hair_gl_bind_buffers(gl, GL_SHADER_STORAGE_BUFFER, HAIR_BIND_SCALP, 1, &targets->position[1]);
     hair_unpack_positions(gl, buffer, offset, size, sim->guide_vertices);
     set_space(sim, space, 0);
 }
@@ -228,7 +228,7 @@ void hair_targets_run(struct hair_sim* sim)
     hair_sim_bind(sim);
     if (sim->rods) hair_sim_bind_rods(sim);
     hair_targets_bind(sim);
-    gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_TARGET_WEIGHT, 1, &targets->weight);
+    hair_gl_bind_buffers(gl, GL_SHADER_STORAGE_BUFFER, HAIR_BIND_TARGET_WEIGHT, 1, &targets->weight);
     hair_gl_run(gl, blend_pass(sim), (sim->guides + HAIR_GROUP_SIZE - 1) / HAIR_GROUP_SIZE);
 }
 

@@ -3,7 +3,7 @@
 #define HAIR_SIM_TARGETS_H
 
 #include "lib/base/pose.h"
-#include "lib/gl/gl.h"
+#include "lib/gl/commands.h"
 
 #include <hair/hair_targets.h>
 

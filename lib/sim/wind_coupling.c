@@ -129,8 +129,8 @@ static void gather_hair(struct hair_sim* sim)
                                       .vertices = sim->guide_vertices};
     GLuint storage[] = {sim->state, fluid->hair.grid.buffer, sim->history, sim->wind_coupling.splat};
     hair_gl_write_uniform(gl, sim->wind_coupling.params, sizeof params, &params);
-    gl->BindBuffersBase(GL_UNIFORM_BUFFER, HAIR_BIND_HAIR_GRID_PARAMS, 1, &sim->wind_coupling.params);
-    gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_STATE, 4, storage);
+    hair_gl_bind_buffers(gl, GL_UNIFORM_BUFFER, HAIR_BIND_HAIR_GRID_PARAMS, 1, &sim->wind_coupling.params);
+    hair_gl_bind_buffers(gl, GL_SHADER_STORAGE_BUFFER, HAIR_BIND_STATE, 4, storage);
     hair_gl_run(gl, HAIR_GL_FLUID_CLEAR, (fours + HAIR_GROUP_SIZE - 1) / HAIR_GROUP_SIZE);
     hair_gl_run(gl, HAIR_GL_FLUID_SPLAT, (sim->guide_vertices + HAIR_GROUP_SIZE - 1) / HAIR_GROUP_SIZE);
 }

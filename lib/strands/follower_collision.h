@@ -4,7 +4,7 @@
 #define HAIR_STRANDS_FOLLOWER_COLLISION_H
 
 #include "lib/field/field.h"
-#include "lib/gl/gl.h"
+#include "lib/gl/commands.h"
 
 struct hair_follower_collision_state {
     GLuint hit, repair, list; // Buffers, as in shared.h. 0 until needed.

@@ -80,7 +80,7 @@ void hair_geometry_bind_group_looks(const struct hair_geometry* geometry)
 {
     struct hair_gl* gl = geometry->gl;
     if (geometry->groups.factors)
-        gl->BindBuffersBase(GL_UNIFORM_BUFFER, HAIR_BIND_GROUP_LOOKS, 1, &geometry->groups.factors);
+        hair_gl_bind_buffers(gl, GL_UNIFORM_BUFFER, HAIR_BIND_GROUP_LOOKS, 1, &geometry->groups.factors);
 }
 
 void hair_geometry_bind(struct hair_geometry* geometry)
@@ -95,11 +95,12 @@ void hair_geometry_bind(struct hair_geometry* geometry)
                          geometry->follower_collision.hit_texture,
                          geometry->follower_collision.repair_texture};
     for (GLuint unit = 0; unit <= HAIR_UNIT_REPAIR; ++unit)
-        if (textures[unit]) gl->BindTextureUnit(unit, textures[unit]);
+        if (textures[unit]) hair_gl_bind_texture(gl, unit, textures[unit]);
     if (hair_geometry_has_lengths(geometry))
-        gl->BindTextureUnit(HAIR_UNIT_LENGTH, geometry->lengths->follower_texture);
-    if (geometry->factors.texture) gl->BindTextureUnit(HAIR_UNIT_STRAND_FACTOR, geometry->factors.texture);
-    gl->BindBuffersBase(GL_UNIFORM_BUFFER, HAIR_BIND_DRAW, 1, &geometry->params);
+        hair_gl_bind_texture(gl, HAIR_UNIT_LENGTH, geometry->lengths->follower_texture);
+    if (geometry->factors.texture)
+        hair_gl_bind_texture(gl, HAIR_UNIT_STRAND_FACTOR, geometry->factors.texture);
+    hair_gl_bind_buffers(gl, GL_UNIFORM_BUFFER, HAIR_BIND_DRAW, 1, &geometry->params);
     hair_geometry_bind_group_looks(geometry);
 }
 

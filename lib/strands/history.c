@@ -56,8 +56,8 @@ void hair_geometry_save_history(struct hair_geometry* geometry)
     if (!is_displayed(history, cache->writes))
         save(host, cache->writes, &cache->position, &cache->position_texture);
     else if (is_displayed(host, cache->writes))
-        geometry->gl->CopyNamedBufferSubData(history->buffer, host->buffer, 0, 0,
-                                             (GLsizeiptr)(cache->vertices * sizeof(hair_vec4)));
+        hair_gl_copy_buffer(geometry->gl, history->buffer, host->buffer, 0, 0,
+                            (GLsizeiptr)(cache->vertices * sizeof(hair_vec4)));
 }
 
 void hair_geometry_save_guide_history(struct hair_geometry* geometry)
@@ -135,5 +135,5 @@ void hair_geometry_bind_history(struct hair_geometry* geometry)
     GLuint texture =
         geometry->history.still ? geometry->vertex_cache.position_texture : geometry->history.texture;
     HAIR_ASSERT(texture);
-    geometry->gl->BindTextureUnit(HAIR_UNIT_BEFORE, texture);
+    hair_gl_bind_texture(geometry->gl, HAIR_UNIT_BEFORE, texture);
 }

@@ -5,7 +5,7 @@
 
 #include "lib/base/math.h"
 #include "lib/base/pose.h"
-#include "lib/gl/gl.h"
+#include "lib/gl/commands.h"
 
 // Transform from positions relative to the head's origin to the world in an earlier frame. `turn`
 // is the rotation by teleports since then.

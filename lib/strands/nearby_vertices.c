@@ -11,9 +11,9 @@ static hair_result run_patch_bounds(struct hair_geometry* geometry, GLuint bound
     hair_geometry_write_params(geometry, &params);
     hair_gl_write_uniform(gl, geometry->params, sizeof params, &params);
     hair_geometry_bind(geometry);
-    gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_CACHED_POSITION, 2, buffers);
+    hair_gl_bind_buffers(gl, GL_SHADER_STORAGE_BUFFER, HAIR_BIND_CACHED_POSITION, 2, buffers);
     hair_gl_run(gl, HAIR_GL_PATCH_BOUNDS, geometry->patches);
-    gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_CACHED_POSITION, 2, NULL);
+    hair_gl_bind_buffers(gl, GL_SHADER_STORAGE_BUFFER, HAIR_BIND_CACHED_POSITION, 2, NULL);
     return HAIR_OK;
 }
 

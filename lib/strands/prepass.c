@@ -99,6 +99,7 @@ void hair_geometry_run_prepass(struct hair_geometry* geometry)
     struct saved saved;
     uint32_t rows = (geometry->followers + HAIR_HIT_COLUMNS - 1) / HAIR_HIT_COLUMNS;
     HAIR_ASSERT(geometry->follower_collision.image && geometry->follower_collision.frame);
+    bool was_recording = hair_gl_run_at_once(gl);
     enter(gl, &saved);
     gl->ClearTexImage(geometry->follower_collision.image, 0, GL_RED, GL_FLOAT, &none);
     gl->BindFramebuffer(GL_DRAW_FRAMEBUFFER, geometry->follower_collision.frame);
@@ -109,6 +110,7 @@ void hair_geometry_run_prepass(struct hair_geometry* geometry)
     hair_geometry_draw_patches(geometry);
     hair_gl_end(gl, pass);
     leave(gl, &saved);
-    gl->BindSampler(HAIR_UNIT_SHADOW, 0);
-    gl->BindTextureUnit(HAIR_UNIT_SHADOW, geometry->follower_collision.image);
+    hair_gl_record_again(gl, was_recording);
+    hair_gl_bind_sampler(gl, HAIR_UNIT_SHADOW, 0);
+    hair_gl_bind_texture(gl, HAIR_UNIT_SHADOW, geometry->follower_collision.image);
 }

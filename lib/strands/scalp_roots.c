@@ -22,9 +22,9 @@ void hair_geometry_bind_followers(struct hair_geometry* geometry, struct hair_si
     HAIR_ASSERT(sim->scalp_motion.root_bindings->count == geometry->guides + geometry->followers);
     hair_sim_bind(sim);
     hair_scalp_motion_bind_all(sim, geometry->followers);
-    gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_FOLLOWER, 1, &geometry->follower.buffer);
-    gl->BindTextureUnit(HAIR_UNIT_POSITION, geometry->smooth.texture[0]);
-    gl->BindTextureUnit(HAIR_UNIT_FRAME, geometry->smooth.texture[1]);
+    hair_gl_bind_buffers(gl, GL_SHADER_STORAGE_BUFFER, HAIR_BIND_FOLLOWER, 1, &geometry->follower.buffer);
+    hair_gl_bind_texture(gl, HAIR_UNIT_POSITION, geometry->smooth.texture[0]);
+    hair_gl_bind_texture(gl, HAIR_UNIT_FRAME, geometry->smooth.texture[1]);
     hair_gl_run(gl, HAIR_GL_BIND_FOLLOWERS, (geometry->followers + HAIR_GROUP_SIZE - 1) / HAIR_GROUP_SIZE);
     geometry->bound_run = geometry->smooth.runs;
 }

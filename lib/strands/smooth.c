@@ -43,12 +43,13 @@ void hair_smooth_run(struct hair_smooth* smooth, struct hair_sim* sim)
     HAIR_ASSERT(smooth->vertices == sim->guides * sim->smooth_vertices);
     HAIR_ASSERT(smooth->buffer[0] && smooth->buffer[1]);
     hair_sim_bind(sim);
-    smooth->gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_POSITION, 2, smooth->buffer);
+    hair_gl_bind_buffers(smooth->gl, GL_SHADER_STORAGE_BUFFER, HAIR_BIND_POSITION, 2, smooth->buffer);
     if (hair_targets_are_on(sim)) hair_targets_bind(sim);
     hair_gl_pass pass = hair_sim_smooth_pass(sim, hair_scalp_motion_is_on(sim), hair_targets_are_on(sim));
     hair_gl_run(smooth->gl, pass, sim->guides);
     if (smooth->guide_shape) {
-        smooth->gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_GUIDE_SHAPE, 1, &smooth->guide_shape);
+        hair_gl_bind_buffers(smooth->gl, GL_SHADER_STORAGE_BUFFER, HAIR_BIND_GUIDE_SHAPE, 1,
+                             &smooth->guide_shape);
         hair_gl_run(smooth->gl, HAIR_GL_DISPLACE, sim->guides);
     }
     ++smooth->runs;
@@ -68,11 +69,11 @@ hair_result hair_smooth_ensure_tangents(struct hair_smooth* smooth, const struct
     if (smooth->tangent && smooth->tangent_run == smooth->runs) return HAIR_OK;
     HAIR_TRY(hair_gl_ensure_array(gl, HAIR_GL_CATEGORY_SMOOTH, "hair tangent",
                                   smooth->vertices * sizeof(hair_vec4), &smooth->tangent, 0, NULL));
-    gl->BindBuffersBase(GL_UNIFORM_BUFFER, HAIR_BIND_STEP, 1, &sim->step);
-    gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_FRAME, 1, &smooth->buffer[1]);
-    gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_TANGENT, 1, &smooth->tangent);
+    hair_gl_bind_buffers(gl, GL_UNIFORM_BUFFER, HAIR_BIND_STEP, 1, &sim->step);
+    hair_gl_bind_buffers(gl, GL_SHADER_STORAGE_BUFFER, HAIR_BIND_FRAME, 1, &smooth->buffer[1]);
+    hair_gl_bind_buffers(gl, GL_SHADER_STORAGE_BUFFER, HAIR_BIND_TANGENT, 1, &smooth->tangent);
     hair_gl_run(gl, HAIR_GL_GUIDE_TANGENTS, (smooth->vertices + HAIR_GROUP_SIZE - 1) / HAIR_GROUP_SIZE);
-    gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_TANGENT, 1, NULL);
+    hair_gl_bind_buffers(gl, GL_SHADER_STORAGE_BUFFER, HAIR_BIND_TANGENT, 1, NULL);
     smooth->tangent_run = smooth->runs;
     return HAIR_OK;
 }

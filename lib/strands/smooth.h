@@ -2,7 +2,7 @@
 #ifndef HAIR_STRANDS_SMOOTH_H
 #define HAIR_STRANDS_SMOOTH_H
 
-#include "lib/gl/gl.h"
+#include "lib/gl/commands.h"
 #include "lib/sim/sim.h"
 
 struct hair_smooth {

@@ -86,13 +86,14 @@ hair_result hair_geometry_ensure_vertex_cache(struct hair_geometry* geometry,
     hair_geometry_save_history(geometry);
     HAIR_ASSERT(vertex_cache->vertices == hair_geometry_count_vertices(geometry) && params.chunks > 0);
     GLuint buffers[] = {vertex_cache->position, vertex_cache->tangent};
-    gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_STORED_POSITION, 2, geometry->smooth.buffer);
-    gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_STORED_FOLLOWER, 1, &geometry->follower.buffer);
-    gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_CACHED_POSITION, 2, buffers);
+    hair_gl_bind_buffers(gl, GL_SHADER_STORAGE_BUFFER, HAIR_BIND_STORED_POSITION, 2, geometry->smooth.buffer);
+    hair_gl_bind_buffers(gl, GL_SHADER_STORAGE_BUFFER, HAIR_BIND_STORED_FOLLOWER, 1,
+                         &geometry->follower.buffer);
+    hair_gl_bind_buffers(gl, GL_SHADER_STORAGE_BUFFER, HAIR_BIND_CACHED_POSITION, 2, buffers);
     hair_gl_run(gl, pass, geometry->patches * params.chunks);
     // Unbind the buffers before they can be deleted. Mesa unbinds a deleted buffer with
     // glBindBufferBase, which also clears the application's generic binding.
-    gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_CACHED_POSITION, 2, NULL);
+    hair_gl_bind_buffers(gl, GL_SHADER_STORAGE_BUFFER, HAIR_BIND_CACHED_POSITION, 2, NULL);
     ++vertex_cache->writes;
     HAIR_ASSERT(vertex_cache->writes > 0); // 0 means that no frame was shown.
     vertex_cache->is_complete = !drawn;
@@ -123,6 +124,6 @@ hair_result hair_geometry_read_vertex_cache(struct hair_geometry* geometry, hair
 void hair_geometry_bind_vertex_cache(struct hair_geometry* geometry)
 {
     HAIR_ASSERT(geometry->vertex_cache.position_texture && geometry->vertex_cache.tangent_texture);
-    geometry->gl->BindTextureUnit(HAIR_UNIT_CACHED_POSITION, geometry->vertex_cache.position_texture);
-    geometry->gl->BindTextureUnit(HAIR_UNIT_CACHED_TANGENT, geometry->vertex_cache.tangent_texture);
+    hair_gl_bind_texture(geometry->gl, HAIR_UNIT_CACHED_POSITION, geometry->vertex_cache.position_texture);
+    hair_gl_bind_texture(geometry->gl, HAIR_UNIT_CACHED_TANGENT, geometry->vertex_cache.tangent_texture);
 }

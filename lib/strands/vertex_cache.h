@@ -3,7 +3,7 @@
 #ifndef HAIR_STRANDS_VERTEX_CACHE_H
 #define HAIR_STRANDS_VERTEX_CACHE_H
 
-#include "lib/gl/gl.h"
+#include "lib/gl/commands.h"
 
 struct hair_vertex_cache {
     GLuint position, tangent, shaded; // Buffers, as in shared.h. 0 until needed.

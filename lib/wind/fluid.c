@@ -113,7 +113,10 @@ void hair_fluid_destroy(struct hair_fluid* fluid)
 void hair_fluid_reset(struct hair_fluid* fluid)
 {
     static const float still[4];
-    if (fluid->gl) fluid->gl->ClearTexImage(fluid->air, 0, GL_RGBA, GL_FLOAT, still);
+    if (fluid->gl) {
+        hair_gl_flush(fluid->gl);
+        fluid->gl->ClearTexImage(fluid->air, 0, GL_RGBA, GL_FLOAT, still);
+    }
     fluid->is_reset = 1;
 }
 
@@ -276,8 +279,8 @@ void hair_fluid_advect(struct hair_fluid* fluid)
     struct hair_gl* gl = fluid->gl;
     hair_fluid_bind(fluid);
     if (fluid->gusts) {
-        gl->BindTextureUnit(HAIR_UNIT_GUST, fluid->gusts);
-        gl->BindSampler(HAIR_UNIT_GUST, 0);
+        hair_gl_bind_texture(gl, HAIR_UNIT_GUST, fluid->gusts);
+        hair_gl_bind_sampler(gl, HAIR_UNIT_GUST, 0);
     }
     hair_fluid_run(fluid, HAIR_GL_FLUID_ADVECT, 0, 0, (uint32_t)hair_fluid_slots(fluid));
     hair_fluid_run(fluid, HAIR_GL_FLUID_MACCORMACK_CORRECT, 0, 0, (uint32_t)hair_fluid_slots(fluid));
@@ -288,10 +291,10 @@ static void show_next(struct hair_fluid* fluid)
 {
     struct hair_gl* gl = fluid->gl;
     uint32_t n = fluid->desc.cells;
-    gl->BindImageTexture(HAIR_IMAGE_AIR, fluid->air, 0, GL_TRUE, 0, GL_WRITE_ONLY, GL_RGBA16F);
+    hair_gl_bind_image(gl, HAIR_IMAGE_AIR, fluid->air, true, GL_WRITE_ONLY, GL_RGBA16F);
     hair_fluid_run(fluid, HAIR_GL_FLUID_EXPORT_VELOCITY, 0, 0, n * n * n);
     // Order these writes before later writes or clears of the texture.
-    gl->MemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT);
+    hair_gl_barrier(gl, GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT);
     fluid->now = (fluid->now + 2) % 3;
 }
 
@@ -326,6 +329,6 @@ void hair_fluid_move(struct hair_fluid* fluid)
 
 void hair_fluid_bind(const struct hair_fluid* fluid)
 {
-    fluid->gl->BindTextureUnit(HAIR_UNIT_AIR, fluid->air);
-    fluid->gl->BindSampler(HAIR_UNIT_AIR, 0);
+    hair_gl_bind_texture(fluid->gl, HAIR_UNIT_AIR, fluid->air);
+    hair_gl_bind_sampler(fluid->gl, HAIR_UNIT_AIR, 0);
 }

@@ -12,7 +12,7 @@
 
 #include "lib/collide/collider.h"
 #include "lib/field/field.h"
-#include "lib/gl/gl.h"
+#include "lib/gl/commands.h"
 #include "lib/wind/wind_params.h"
 
 #define HAIR_FLUID_LEVELS 5 // From 128 cells along an axis to 8.

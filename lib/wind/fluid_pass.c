@@ -35,18 +35,18 @@ static void bind_fluid(const struct hair_fluid* fluid, hair_gl_pass pass)
                       fluid->pressure[jacobi ? 1 - fluid->current_pressure : fluid->current_pressure].buffer,
                       fluid->rhs.buffer,
                       fluid->motion};
-    gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_VELOCITY, 6, write);
-    gl->BindBuffersBase(GL_UNIFORM_BUFFER, HAIR_BIND_FLUID, 1, &fluid->params);
-    gl->BindTextureUnit(HAIR_UNIT_VELOCITY, early ? was->texture : next->texture);
-    gl->BindTextureUnit(HAIR_UNIT_ADVECTED, carried->texture);
-    gl->BindTextureUnit(HAIR_UNIT_FACE_FRACTION, open->texture);
-    gl->BindTextureUnit(HAIR_UNIT_PRESSURE, fluid->pressure[fluid->current_pressure].texture);
-    gl->BindTextureUnit(HAIR_UNIT_RHS, fluid->rhs.texture);
-    gl->BindTextureUnit(HAIR_UNIT_WALL_VELOCITY, wall->texture);
+    hair_gl_bind_buffers(gl, GL_SHADER_STORAGE_BUFFER, HAIR_BIND_VELOCITY, 6, write);
+    hair_gl_bind_buffers(gl, GL_UNIFORM_BUFFER, HAIR_BIND_FLUID, 1, &fluid->params);
+    hair_gl_bind_texture(gl, HAIR_UNIT_VELOCITY, early ? was->texture : next->texture);
+    hair_gl_bind_texture(gl, HAIR_UNIT_ADVECTED, carried->texture);
+    hair_gl_bind_texture(gl, HAIR_UNIT_FACE_FRACTION, open->texture);
+    hair_gl_bind_texture(gl, HAIR_UNIT_PRESSURE, fluid->pressure[fluid->current_pressure].texture);
+    hair_gl_bind_texture(gl, HAIR_UNIT_RHS, fluid->rhs.texture);
+    hair_gl_bind_texture(gl, HAIR_UNIT_WALL_VELOCITY, wall->texture);
     if (!hairy) return;
-    gl->BindTextureUnit(HAIR_UNIT_BARE_FACE_FRACTION, fluid->face_fraction.texture);
-    gl->BindTextureUnit(HAIR_UNIT_BARE_WALL_VELOCITY, fluid->wall_velocity.texture);
-    if (pass == HAIR_GL_FLUID_POROUS) gl->BindTextureUnit(HAIR_UNIT_THICKET, fluid->hair.grid.texture);
+    hair_gl_bind_texture(gl, HAIR_UNIT_BARE_FACE_FRACTION, fluid->face_fraction.texture);
+    hair_gl_bind_texture(gl, HAIR_UNIT_BARE_WALL_VELOCITY, fluid->wall_velocity.texture);
+    if (pass == HAIR_GL_FLUID_POROUS) hair_gl_bind_texture(gl, HAIR_UNIT_THICKET, fluid->hair.grid.texture);
 }
 
 void hair_fluid_run(struct hair_fluid* fluid, hair_gl_pass pass, uint32_t level, uint32_t color,
@@ -56,7 +56,8 @@ void hair_fluid_run(struct hair_fluid* fluid, hair_gl_pass pass, uint32_t level,
     const GLsizeiptr size = sizeof(struct hair_fluid_level);
     HAIR_ASSERT(level < fluid->levels && color < 2 && threads > 0);
     bind_fluid(fluid, pass);
-    fluid->gl->BindBuffersRange(GL_UNIFORM_BUFFER, HAIR_BIND_LEVEL, 1, &fluid->level_params, &first, &size);
+    hair_gl_bind_ranges(fluid->gl, GL_UNIFORM_BUFFER, HAIR_BIND_LEVEL, 1, &fluid->level_params, &first,
+                        &size);
     hair_gl_run(fluid->gl, pass, (threads + HAIR_GROUP_SIZE - 1) / HAIR_GROUP_SIZE);
     if (pass == HAIR_GL_FLUID_JACOBI) fluid->current_pressure = 1 - fluid->current_pressure;
 }

@@ -216,14 +216,14 @@ static void write_starts(const struct hair_wind_step* step, struct hair_wind_par
 
 static void bind_wind(const struct hair_wind_state* state, struct hair_gl* gl, GLuint volume)
 {
-    gl->BindBuffersBase(GL_UNIFORM_BUFFER, HAIR_BIND_WIND, 1, &state->params);
+    hair_gl_bind_buffers(gl, GL_UNIFORM_BUFFER, HAIR_BIND_WIND, 1, &state->params);
     if (state->gusts) { // Binding 0 would also unbind the application's textures of other targets.
-        gl->BindTextureUnit(HAIR_UNIT_GUST, state->gusts);
-        gl->BindSampler(HAIR_UNIT_GUST, 0);
+        hair_gl_bind_texture(gl, HAIR_UNIT_GUST, state->gusts);
+        hair_gl_bind_sampler(gl, HAIR_UNIT_GUST, 0);
     }
     if (volume) {
-        gl->BindTextureUnit(HAIR_UNIT_VOLUME, volume);
-        gl->BindSampler(HAIR_UNIT_VOLUME, 0);
+        hair_gl_bind_texture(gl, HAIR_UNIT_VOLUME, volume);
+        hair_gl_bind_sampler(gl, HAIR_UNIT_VOLUME, 0);
     }
 }
 

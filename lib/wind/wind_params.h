@@ -3,7 +3,7 @@
 #define HAIR_WIND_WIND_PARAMS_H
 
 #include "lib/collide/collider.h"
-#include "lib/gl/gl.h"
+#include "lib/gl/commands.h"
 
 #include <stdbool.h>
 

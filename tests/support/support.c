@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "lib/api/api.h"
+#include "lib/gl/recorder.h"
 
 int hair_test_skips(void)
 {
@@ -61,7 +62,10 @@ int hair_test_finish(void** state)
 uint32_t hair_test_blocks(const struct hair_test* test)
 {
     const struct hair_gl* gl = &test->context->gl;
-    return test->host.blocks - gl->programs - (gl->program != NULL);
+    const struct hair_gl_recorder* recorder = gl->recorder;
+    uint32_t kept = gl->programs + (gl->program != NULL);
+    if (recorder) kept += 1u + (recorder->stream != NULL) + (recorder->commands != NULL);
+    return test->host.blocks - kept;
 }
 
 uint64_t hair_test_gpu_bytes(struct hair_test* test)

@@ -39,7 +39,7 @@ void hair_test_set_compatibility(bool is_wanted);
 int hair_test_begin(void** state);
 int hair_test_end(void** state);
 // Return the number of blocks that the host has lent, without those that the context keeps for
-// passes used so far.
+// passes used so far, and to record commands.
 uint32_t hair_test_blocks(const struct hair_test* test);
 // Return the memory of the GPU that the context has in use, in bytes.
 uint64_t hair_test_gpu_bytes(struct hair_test* test);

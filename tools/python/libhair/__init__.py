@@ -23,14 +23,14 @@ from ._native import (
     hair as _hair,
 )
 from .haircut import Asset, CollisionMesh, Groom
-from .objects import Context, Hair, set_mesh
+from .objects import Context, Hair, draw_list, set_mesh, step_list
 from .picture import look_at, perspective, render, write_png
 from .settings import CLASSES as _CLASSES, Member, Settings
 
 globals().update(_CLASSES)
 __version__ = "{0}.{1}.{2}".format(*(_hair.hair_version() // d % 100 for d in (10000, 100, 1)))
 __all__ = [
-    "Asset", "CollisionMesh", "Context", "Groom", "Hair", "Member", "Settings", "set_mesh",
+    "Asset", "CollisionMesh", "Context", "Groom", "Hair", "Member", "Settings", "draw_list", "set_mesh", "step_list",
     "look_at", "perspective", "render", "write_png",
     "HairError", "HairArgumentError", "HairContextLostError", "HairFileError", "HairMemoryError",
     "HairOpenGLError", "HairVersionError", *_CLASSES,

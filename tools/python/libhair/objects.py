@@ -317,13 +317,38 @@ class Hair:
 
     def draw(self, view, lights=None, lod=None):
         """Draw into the bound framebuffer and viewport, with View, a list of Light, and Lod."""
-        view = view.copy()
-        if lights is not None:
-            view._point("lights", _structs("hair_light", lights))
-            view._c.light_count = len(lights)
-        if lod is not None:
-            view._point("lod", lod._c)
-        self._call(hair.hair_draw, view._c)
+        self._call(hair.hair_draw, _with(view, lights, lod)._c)
+
+
+def _with(view, lights, lod):
+    """Return a copy of a view with lights and a level of detail."""
+    view = view.copy()
+    if lights is not None:
+        view._point("lights", _structs("hair_light", lights))
+        view._c.light_count = len(lights)
+    if lod is not None:
+        view._point("lod", lod._c)
+    return view
+
+
+def _list_of(hairs):
+    hairs = list(hairs)
+    for one in hairs:
+        if one._c is None or one.context._c is None:
+            raise ValueError("the hair is closed")
+    if hairs:
+        hairs[0].context.make_current()
+    return ffi.new("hair_instance*[]", [one._c for one in hairs]), len(hairs)
+
+
+def step_list(hairs, dt):
+    """Advance all hair of a list by a time in s. A GPU computes them side by side."""
+    call(hair.hair_step_list, *_list_of(hairs), dt)
+
+
+def draw_list(hairs, view, lights=None, lod=None):
+    """Draw all hair of a list in their order, as Hair.draw() draws one."""
+    call(hair.hair_draw_list, *_list_of(hairs), _with(view, lights, lod)._c)
 
 
 def set_mesh(collider, mesh):

@@ -1,0 +1,245 @@
+// draw.c - public calls that draw one instance or many.
+#include "lib/api/api.h"
+
+// Check the framebuffer. Drawing into an incomplete one would raise the application's error flag
+// and draw nothing.
+static hair_result check_framebuffer(const hair_instance* hair)
+{
+    GLenum status = hair->context->gl.CheckFramebufferStatus(GL_DRAW_FRAMEBUFFER);
+    if (status == GL_FRAMEBUFFER_COMPLETE) return HAIR_OK;
+    return hair_fail(&hair->context->host, HAIR_ERROR_OPENGL,
+                     "%s: the bound framebuffer is not complete: status 0x%04X%s", hair->label, status,
+                     status == GL_FRAMEBUFFER_UNDEFINED ? ", there is none" : "");
+}
+
+// Draw the colliders. Only a slice needs the field, and collision meshes, which shaders read from
+// the field's copy.
+static hair_result draw_colliders(hair_instance* hair, const hair_view* view)
+{
+    const struct hair_collider_list* list = hair_sim_colliders(&hair->sim);
+    int needed = view->slice != HAIR_SLICE_NONE;
+    for (uint32_t i = 0; i < list->count; ++i) needed |= list->collider[i].mesh != NULL;
+    if (needed) HAIR_TRY(hair_update_field(hair));
+    return hair_draw_colliders(&hair->renderer, &hair->field, list->collider, list->count,
+                               &hair->sim.head_at_last_step, view);
+}
+
+static hair_result draw_air(hair_instance* hair, const hair_view* view)
+{
+    const struct hair_sim* sim = &hair->sim;
+    if (!hair_sim_has_wind(sim)) return HAIR_OK;
+    return hair_draw_air(&hair->renderer, &sim->wind_state, &sim->wind, hair_sim_fluid(sim), &hair->field.box,
+                         &sim->head_at_last_step, view);
+}
+
+hair_result hair_update_follower_collision(hair_instance* hair)
+{
+    struct hair_geometry* geometry = &hair->geometry;
+    const hair_look* look = &geometry->look;
+    if (hair_geometry_has_follower_collision(geometry)) return HAIR_OK;
+    bool is_shown = geometry->push_out_weight > 0;
+    bool collides =
+        is_shown && look->followers.collision != HAIR_FOLLOWER_COLLISION_NONE && geometry->followers;
+    bool blocks = look->self_shadow.method == HAIR_SELF_SHADOW_STRANDS;
+    hair_geometry_set_blockers(geometry, NULL);
+    if (collides || blocks) HAIR_TRY(hair_update_field(hair));
+    const struct hair_collider_field* field =
+        (collides || blocks) && hair_field_is_near(&hair->field) ? &hair->field : NULL;
+    if (is_shown) {
+        if (!hair_sim_colliders(&hair->sim)->count) hair_geometry_free_follower_collision(geometry);
+        HAIR_TRY(hair_geometry_update_follower_collision(geometry, collides ? field : NULL,
+                                                         hair->sim.physics.collision.margin));
+    }
+    hair_geometry_set_blockers(geometry, field);
+    return HAIR_OK;
+}
+
+// Tell the renderer how far strands may be from where the groom has them. Culling depends on it.
+static void update_attachment(hair_instance* hair)
+{
+    hair_renderer_set_attachment(&hair->renderer, hair_sim_has_fixed_roots(&hair->sim),
+                                 hair_sim_has_attached_strands(&hair->sim));
+}
+
+static int is_of_surroundings(const hair_view* view)
+{
+    return view->pass == HAIR_PASS_COLLIDERS || view->pass == HAIR_PASS_WIND;
+}
+
+// Return whether a view shows no hair and may be skipped. Velocities must be drawn in every frame.
+static int is_out_of_view(const hair_instance* hair, const hair_view* view)
+{
+    if (is_of_surroundings(view) || hair_draw_has_motion(view)) return 0;
+    return hair_sim_has_attached_strands(&hair->sim) &&
+           hair_draw_is_out_of_view(&hair->renderer, &hair->sim.head_at_last_step, view);
+}
+
+// Record the request of a view. Return whether it is to be drawn.
+static int is_to_be_drawn(hair_instance* hair, const struct hair_draw_plan* plan)
+{
+    const hair_view* view = plan->view;
+    struct hair_frame_requests* requests = hair_current_requests(hair);
+    if (is_of_surroundings(view) || view->pass == HAIR_PASS_GUIDES) return !is_out_of_view(hair, view);
+    int kind = view->pass == HAIR_PASS_OPACITY ? 2 : view->pass == HAIR_PASS_DEPTH;
+    HAIR_ASSERT(0 <= kind && kind < 3);
+    int unseen = is_out_of_view(hair, view);
+    ++requests->views[kind];
+    requests->unseen[kind] += (uint32_t)unseen;
+    requests->strand_list |= !unseen && plan->has_strand_list;
+    requests->vertex_cache |= !unseen && plan->vertices == HAIR_VERTICES_CACHED;
+    requests->occlusion |= !unseen && hair_draw_uses_occlusion(view);
+    return !unseen && hair_geometry_shows_followers(&hair->geometry);
+}
+
+void hair_make_plan(const hair_instance* hair, const hair_view* view, struct hair_draw_plan* out)
+{
+    hair_draw_make_plan(&hair->renderer, view, view->shader ? &view->shader->gl : NULL, out);
+}
+
+// Draw everything but strands.
+static hair_result draw_surroundings(hair_instance* hair, const hair_view* view)
+{
+    return view->pass == HAIR_PASS_COLLIDERS ? draw_colliders(hair, view) : draw_air(hair, view);
+}
+
+// Do everything before the pass that draws, with the context entered.
+static hair_result prepare(hair_instance* hair, struct hair_draw_plan* plan)
+{
+    const hair_view* view = plan->view;
+    const struct hair_pose* head = &hair->sim.head_at_last_step;
+    hair_result result = HAIR_OK;
+    hair_draw_free_unused(&hair->renderer, hair->profiler.number);
+    hair_geometry_ensure_guides(&hair->geometry, &hair->sim);
+    hair_draw_select_lod(&hair->renderer, head, plan);
+    if (view->pass != HAIR_PASS_GUIDES && hair_geometry_shows_followers(&hair->geometry))
+        result = hair_update_follower_collision(hair);
+    update_attachment(hair);
+    if (!result) result = hair_draw_prepare(&hair->renderer, head, plan);
+    if (result == HAIR_ERROR_MEMORY && hair_draw_avoid_cache(&hair->renderer, plan)) {
+        hair_make_plan(hair, view, plan);
+        hair_draw_select_lod(&hair->renderer, head, plan);
+        result = hair_draw_prepare(&hair->renderer, head, plan);
+    }
+    return result;
+}
+
+static hair_result check_view(hair_instance* hair, const hair_view* view, struct hair_view_copy* own)
+{
+    HAIR_TRY(hair_copy_view(hair, view, own));
+    HAIR_TRY(hair_check_current(hair->context));
+    hair_result result = hair_check_view_textures(hair, &own->view);
+    if (!result) result = check_framebuffer(hair);
+    return result ? hair_check_lost(hair->context, result) : HAIR_OK;
+}
+
+hair_result hair_draw(hair_instance* hair, const hair_view* view)
+{
+    HAIR_TRY(hair_check_instance(hair));
+    struct hair_view_copy own;
+    struct hair_draw_plan plan;
+    HAIR_TRY(check_view(hair, view, &own));
+    hair_make_plan(hair, &own.view, &plan);
+    if (!is_to_be_drawn(hair, &plan)) return HAIR_OK;
+    hair_enter(hair);
+    hair_result result;
+    if (is_of_surroundings(&own.view)) {
+        hair_draw_free_unused(&hair->renderer, hair->profiler.number);
+        result = draw_surroundings(hair, &own.view);
+    } else {
+        result = prepare(hair, &plan);
+        if (!result) hair_draw_finish(&hair->renderer, &plan);
+    }
+    result = hair_leave(hair->context, result);
+    if (!result) hair_sim_set_unseen_time(&hair->sim, 0);
+    return result;
+}
+
+// Lists -------------------------------------------------------------------------------------------
+
+// Instances of a list that are drawn together, with their plans.
+struct batch {
+    hair_instance* const* hair;
+    uint32_t count;
+    struct hair_draw_plan* plan;
+    uint32_t drawn; // Number of plans.
+    hair_instance* of[HAIR_GL_STREAMS]; // Instance of each plan.
+    hair_result result[HAIR_GL_STREAMS];
+};
+
+// Prepare all instances side by side, and then draw them in their order.
+static void draw_recorded(struct hair_gl* gl, struct batch* batch)
+{
+    for (uint32_t i = 0; i < batch->drawn; ++i) {
+        hair_instance* hair = batch->of[i];
+        hair_gl_set_owner(gl, &hair->memory, &hair->profiler);
+        hair_gl_begin_stream(gl);
+        batch->result[i] = prepare(hair, &batch->plan[i]);
+    }
+    for (uint32_t i = 0; i < batch->drawn; ++i) {
+        if (batch->result[i]) continue;
+        hair_gl_set_owner(gl, &batch->of[i]->memory, &batch->of[i]->profiler);
+        hair_gl_continue_stream(gl, i);
+        hair_draw_finish(&batch->of[i]->renderer, &batch->plan[i]);
+    }
+    hair_gl_end_recording(gl);
+}
+
+static void draw_in_turn(struct hair_gl* gl, struct batch* batch, const hair_view* view)
+{
+    for (uint32_t i = 0; i < batch->drawn; ++i) {
+        hair_instance* hair = batch->of[i];
+        hair_gl_set_owner(gl, &hair->memory, &hair->profiler);
+        if (is_of_surroundings(view)) {
+            batch->result[i] = draw_surroundings(hair, view);
+            continue;
+        }
+        batch->result[i] = prepare(hair, &batch->plan[i]);
+        if (!batch->result[i]) hair_draw_finish(&hair->renderer, &batch->plan[i]);
+    }
+}
+
+// Draw a batch. Return the first failure.
+static hair_result draw_batch(struct batch* batch, const hair_view* view)
+{
+    hair_context* context = batch->hair[0]->context;
+    struct hair_gl* gl = &context->gl;
+    hair_result first = HAIR_OK;
+    for (uint32_t i = 0; i < batch->count; ++i) {
+        hair_make_plan(batch->hair[i], view, &batch->plan[batch->drawn]);
+        if (is_to_be_drawn(batch->hair[i], &batch->plan[batch->drawn]))
+            batch->of[batch->drawn++] = batch->hair[i];
+    }
+    if (!batch->drawn) return HAIR_OK;
+    hair_enter(batch->of[0]);
+    bool has_strands = !is_of_surroundings(view) && view->pass != HAIR_PASS_GUIDES;
+    if (has_strands && batch->drawn > 1 && hair_gl_begin_recording(gl, batch->drawn))
+        draw_recorded(gl, batch);
+    else
+        draw_in_turn(gl, batch, view);
+    hair_result lost = hair_leave(context, HAIR_OK);
+    for (uint32_t i = 0; i < batch->drawn; ++i) {
+        if (!first) first = batch->result[i];
+        if (!lost && !batch->result[i]) hair_sim_set_unseen_time(&batch->of[i]->sim, 0);
+    }
+    return lost ? lost : first;
+}
+
+hair_result hair_draw_list(hair_instance* const* list, uint32_t count, const hair_view* view)
+{
+    HAIR_TRY(hair_check_list(list, count));
+    if (!count) return HAIR_OK;
+    struct hair_view_copy own;
+    HAIR_TRY(check_view(list[0], view, &own));
+    const hair_host* host = &list[0]->context->host;
+    uint32_t most = count < HAIR_GL_STREAMS ? count : HAIR_GL_STREAMS;
+    struct hair_draw_plan* plans = hair_alloc(host, most, sizeof *plans);
+    if (!plans) return hair_fail_memory(host, "a list of instances");
+    hair_result first = HAIR_OK;
+    for (uint32_t i = 0; i < count && first != HAIR_ERROR_CONTEXT_LOST; i += most) {
+        struct batch batch = {.hair = list + i, .count = count - i < most ? count - i : most, .plan = plans};
+        hair_result result = draw_batch(&batch, &own.view);
+        if (!first || result == HAIR_ERROR_CONTEXT_LOST) first = result;
+    }
+    hair_free(host, plans);
+    return first;
+}
