@@ -1,7 +1,7 @@
 // density.glsl - the grid of hair density: its place, and its value at a position.
 //
 // The grid is fixed in the head's frame and encloses all hair. Its cells have the requested size,
-// or the size at which HAIR_DENSITY_NODES nodes suffice. A node holds the area of the strands
+// or the size at which the nodes of the buffer suffice. A node holds the area of the strands
 // around it, projected across a light, divided by the area of one face of a cell, in
 // HAIR_DENSITY_UNITS. This is the number of strands that light meets on its way through a cell.
 #include "draw_params.glsl"
@@ -51,7 +51,7 @@ density_grid find_grid()
     float cell  = draw.origin.w;
     for (int i = 0; i < 400; ++i) {
         nodes = floor(upper / cell) - floor(lower / cell) + 2.0;
-        if (nodes.x * nodes.y * nodes.z <= float(HAIR_DENSITY_NODES)) break;
+        if (nodes.x * nodes.y * nodes.z <= float(density.length())) break;
         cell *= 1.1;
     }
     return density_grid(cell * floor(lower / cell), cell, uvec3(nodes));

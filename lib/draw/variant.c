@@ -78,7 +78,7 @@ void hair_draw_find_passes(const struct hair_renderer* renderer, hair_gl_pass st
         add_rows(plan, HAIR_GL_EXPAND, HAIR_GL_EXPAND, features);
     if (plan->light_values && plan->view->lod)
         add_rows(plan, HAIR_GL_EXPAND_DRAWN, HAIR_GL_EXPAND_DRAWN, features);
-    if (plan->light_values) add_rows(plan, HAIR_GL_DENSITY_BOUNDS, HAIR_GL_VERTEX_TRANSMITTANCE, features);
+    if (plan->light_values) add_rows(plan, HAIR_GL_DENSITY_CLEAR, HAIR_GL_VERTEX_TRANSMITTANCE, features);
     if (plan->light_values && plan->view->lod)
         add_rows(plan, HAIR_GL_VERTEX_TRANSMITTANCE_DRAWN, HAIR_GL_VERTEX_TRANSMITTANCE_DRAWN, features);
     if (plan->has_strand_list) add_rows(plan, HAIR_GL_SCAN_STRANDS, HAIR_GL_COMPACT_STRANDS, features);

@@ -221,6 +221,7 @@ PASS(COMPACT_STRANDS, "draw/compact_strands", COMPACT_STRANDS, WITH(OCCLUSION), 
 PASS(HISTOGRAM, "draw/histogram", COLOR, 0, "HAIR_VERTEX_CACHE=1 draw/histogram.comp")
 PASS(PREFIX_SUM, "draw/prefix_sum", COLOR, 0, "draw/prefix_sum.comp")
 PASS(SCATTER, "draw/scatter", COLOR, 0, "HAIR_VERTEX_CACHE=1 HAIR_SCATTER=1 draw/histogram.comp")
+PASS(DENSITY_CLEAR, "light/density_clear", SELF_SHADOW, 0, "light/density_clear.comp")
 PASS(DENSITY_BOUNDS, "light/density_bounds", SELF_SHADOW, 0, "light/density_bounds.comp")
 PASS(DENSITY_SPLAT, "light/density_splat", SELF_SHADOW, 0, "light/density_splat.comp")
 PASS(NODE_TRANSMITTANCE, "light/node_transmittance", SELF_SHADOW, WITH(COLLIDERS),

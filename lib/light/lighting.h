@@ -83,6 +83,9 @@ void hair_lighting_bind_shadow_maps(struct hair_lighting* lighting, const hair_v
 
 // Return the number of light values per vertex, or 0 without self-shadowing.
 uint32_t hair_lighting_value_count(const hair_look* look, const hair_view* view);
+// Create a density grid of at least `nodes` nodes with `each` light values. Hair far away needs few
+// nodes, so a grid that is much larger for many views is made anew.
+hair_result hair_lighting_ensure_grid(struct hair_lighting* lighting, uint32_t nodes, uint32_t each);
 // Compute the light that reaches each vertex in `view`, which requests self-shadowing. `drawn` are
 // the parameters of the view, and `params` those of the grid. With `is_part`, only the vertices
 // that the view draws are written to the vertex cache. The programs must be compiled.

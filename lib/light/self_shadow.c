@@ -4,6 +4,10 @@
 
 #include <string.h>
 
+#define MIN_NODES 4096u // Minimum capacity of the grid, a multiple of 4 times HAIR_GROUP_SIZE.
+// A grid is made anew once SPARE_VIEWS views in turn need less than 1 / SHRINKS of its capacity.
+#define SHRINKS 4
+#define SPARE_VIEWS 60
 #define NODE_GROUPS 4096 // Number of work groups. Their threads loop over all nodes of the grid.
 // Work of a dispatch. A GPU must not take long for one. `hair-bench dispatch` measures them.
 #define SPLAT_SEGMENTS (1u << 21) // Segments of a dispatch that fills the grid.
@@ -12,7 +16,7 @@
 void hair_lighting_free_self_shadow(struct hair_lighting* lighting)
 {
     struct hair_self_shadow_state* own = &lighting->self_shadow;
-    if (!own->density) return; // The first buffer that is made.
+    if (!own->box) return; // The first buffer that is made.
     hair_gl_free_array(lighting->gl, &own->density, NULL);
     hair_gl_free_array(lighting->gl, &own->box, NULL);
     hair_gl_free_array(lighting->gl, &own->nodes, NULL);
@@ -20,48 +24,49 @@ void hair_lighting_free_self_shadow(struct hair_lighting* lighting)
     memset(own, 0, sizeof *own);
 }
 
-static hair_result make_light(struct hair_lighting* lighting, const struct hair_geometry* geometry,
-                              uint32_t each)
+hair_result hair_lighting_ensure_grid(struct hair_lighting* lighting, uint32_t nodes, uint32_t each)
 {
     struct hair_gl* gl = lighting->gl;
     struct hair_self_shadow_state* own = &lighting->self_shadow;
-    HAIR_ASSERT(0 < each && each <= 1 + HAIR_LIGHTS && geometry->vertex_cache.vertices > 0);
-    size_t numbers = geometry->vertex_cache.vertices * each;
-    if (own->texture && own->numbers == numbers && own->each == each) return HAIR_OK;
-    hair_gl_free_array(gl, &own->light, &own->texture);
+    HAIR_ASSERT(0 < nodes && nodes <= HAIR_DENSITY_NODES && 0 < each && each <= 1 + HAIR_LIGHTS);
+    uint32_t room = MIN_NODES;
+    while (room < nodes) room *= 2;
+    own->spare = own->room / SHRINKS > room ? own->spare + 1 : 0;
+    if (own->room < nodes || own->spare > SPARE_VIEWS) hair_gl_free_array(gl, &own->density, NULL);
+    if (own->density && own->each == each) return HAIR_OK;
     hair_gl_free_array(gl, &own->nodes, NULL);
-    own->frame = 0;
-    own->numbers = numbers;
+    hair_gl_free_array(gl, &own->density, NULL);
+    own->room = room;
+    own->filled = own->spare = 0;
     own->each = each;
-    size_t nodes = (size_t)HAIR_DENSITY_NODES * each;
-    hair_result result = hair_gl_ensure_array(gl, HAIR_GL_CATEGORY_SELF_SHADOW, "hair light of nodes",
-                                              nodes * sizeof(float), &own->nodes, 0, NULL);
-    if (result) return result;
-    return hair_gl_ensure_array(gl, HAIR_GL_CATEGORY_SELF_SHADOW, "hair light", numbers * sizeof(uint32_t),
-                                &own->light, GL_R32UI, &own->texture);
+    own->frame = 0;
+    HAIR_TRY(hair_gl_ensure_array(gl, HAIR_GL_CATEGORY_SELF_SHADOW, "hair density box", 6 * sizeof(uint32_t),
+                                  &own->box, 0, NULL));
+    HAIR_TRY(hair_gl_ensure_array(gl, HAIR_GL_CATEGORY_SELF_SHADOW, "hair light of nodes",
+                                  (size_t)own->room * each * sizeof(float), &own->nodes, 0, NULL));
+    return hair_gl_ensure_array(gl, HAIR_GL_CATEGORY_SELF_SHADOW, "hair density",
+                                own->room * sizeof(uint32_t), &own->density, 0, NULL);
 }
 
-static hair_result ensure_shadow_buffers(struct hair_lighting* lighting, const struct hair_geometry* geometry,
-                                         uint32_t each)
+static hair_result ensure_light(struct hair_lighting* lighting, const struct hair_geometry* geometry)
 {
-    struct hair_gl* gl = lighting->gl;
     struct hair_self_shadow_state* own = &lighting->self_shadow;
-    hair_result result = hair_gl_ensure_array(gl, HAIR_GL_CATEGORY_SELF_SHADOW, "hair density",
-                                              HAIR_DENSITY_NODES * sizeof(uint32_t), &own->density, 0, NULL);
-    if (!result)
-        result = hair_gl_ensure_array(gl, HAIR_GL_CATEGORY_SELF_SHADOW, "hair density box",
-                                      6 * sizeof(uint32_t), &own->box, 0, NULL);
-    return result ? result : make_light(lighting, geometry, each);
+    HAIR_ASSERT(geometry->vertex_cache.vertices > 0);
+    size_t numbers = geometry->vertex_cache.vertices * own->each;
+    if (own->texture && own->numbers == numbers) return HAIR_OK;
+    hair_gl_free_array(lighting->gl, &own->light, &own->texture);
+    own->frame = 0;
+    own->numbers = numbers;
+    return hair_gl_ensure_array(lighting->gl, HAIR_GL_CATEGORY_SELF_SHADOW, "hair light",
+                                numbers * sizeof(uint32_t), &own->light, GL_R32UI, &own->texture);
 }
 
 static void fill_grid(struct hair_lighting* lighting, const struct hair_geometry* geometry, uint32_t groups)
 {
-    static const GLuint none = 0, outermost = UINT32_MAX;
     struct hair_gl* gl = lighting->gl;
     struct hair_self_shadow_state* own = &lighting->self_shadow;
     HAIR_ASSERT(own->density && own->box && groups > 0);
-    gl->ClearNamedBufferData(own->density, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, &none);
-    gl->ClearNamedBufferData(own->box, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, &outermost);
+    hair_gl_run(gl, HAIR_GL_DENSITY_CLEAR, own->room / 4 / HAIR_GROUP_SIZE);
     hair_gl_run(gl, HAIR_GL_DENSITY_BOUNDS, groups);
     uint32_t each = (groups / geometry->patches + HAIR_SPLAT_ROUNDS - 1) / HAIR_SPLAT_ROUNDS;
     hair_gl_limit_groups(gl, HAIR_GL_DENSITY_SPLAT, SPLAT_SEGMENTS / (HAIR_GROUP_SIZE * HAIR_SPLAT_ROUNDS));
@@ -108,9 +113,9 @@ hair_result hair_lighting_update_self_shadow(struct hair_lighting* lighting, str
 {
     struct hair_gl* gl = lighting->gl;
     struct hair_self_shadow_state* own = &lighting->self_shadow;
-    HAIR_ASSERT(params->light_values > 0);
+    HAIR_ASSERT(own->density && params->light_values == own->each);
     hair_result result = hair_geometry_ensure_vertex_cache(geometry, is_part ? params : NULL);
-    if (!result) result = ensure_shadow_buffers(lighting, geometry, params->light_values);
+    if (!result) result = ensure_light(lighting, geometry);
     if (result) return result;
     hair_gl_write_uniform(gl, geometry->params, sizeof *params, params);
     hair_geometry_bind(geometry);
@@ -118,8 +123,8 @@ hair_result hair_lighting_update_self_shadow(struct hair_lighting* lighting, str
     uint32_t groups = geometry->patches * params->chunks;
     GLuint grid[] = {own->density, own->box};
     GLuint buffers[] = {own->nodes, geometry->vertex_cache.position, own->light};
-    gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_DENSITY, 2, grid);
-    gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_DENSITY_LIGHT, 3, buffers);
+    hair_gl_bind_buffers(gl, GL_SHADER_STORAGE_BUFFER, HAIR_BIND_DENSITY, 2, grid);
+    hair_gl_bind_buffers(gl, GL_SHADER_STORAGE_BUFFER, HAIR_BIND_DENSITY_LIGHT, 3, buffers);
     if (own->filled != geometry->vertex_cache.writes) fill_grid(lighting, geometry, groups);
     if (is_found(lighting, view, params) && !view->lod) return HAIR_OK;
     if (view->lod) own->frame = 0; // Another view draws other strands, or in another width.

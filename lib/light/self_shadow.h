@@ -3,11 +3,13 @@
 #ifndef HAIR_LIGHT_SELF_SHADOW_H
 #define HAIR_LIGHT_SELF_SHADOW_H
 
-#include "lib/gl/gl.h"
+#include "lib/gl/commands.h"
 
 struct hair_self_shadow_state {
     GLuint density, box, nodes, light; // Buffers, as in shared.h. 0 until needed.
     GLuint texture; // Buffer texture of `light`.
+    uint32_t room; // Capacity of the grid, in nodes.
+    uint32_t spare; // Number of views in turn that need much less.
     uint32_t each; // Number of values of each node and of each vertex.
     size_t numbers; // Capacity of `light`, in values.
     uint32_t filled; // Value of hair_vertex_cache.writes that the grid is for.
