@@ -56,8 +56,9 @@ struct bench_suite {
 // clang-format off
 #define BENCH_SUITES(SUITE) \
     SUITE(accuracy) SUITE(bounds) SUITE(collision) SUITE(dispatch) SUITE(field) \
-    SUITE(followers) SUITE(lod) SUITE(paths) SUITE(physics) SUITE(raster) SUITE(render) SUITE(scale) \
-    SUITE(shadow) SUITE(skip) SUITE(stability) SUITE(startup) SUITE(table) SUITE(wind)
+    SUITE(followers) SUITE(heads) SUITE(lod) SUITE(paths) SUITE(physics) SUITE(raster) \
+    SUITE(render) SUITE(scale) SUITE(shadow) SUITE(skip) SUITE(stability) \
+    SUITE(startup) SUITE(table) SUITE(wind)
 // clang-format on
 #define BENCH_DECLARE(name) extern const struct bench_suite bench_##name;
 BENCH_SUITES(BENCH_DECLARE)

@@ -201,6 +201,11 @@ SUITES = [
         "shown": missed, "shown_title": "limits that are missed",
     },
     {
+        "name": "heads", "title": "Many heads in one view",
+        "text": "Heads that all shake, stepped and drawn by single calls and by lists. Far heads are about 30 pixels large.",
+        "plots": [], "shown": lambda row: True, "shown_title": "the heads",
+    },
+    {
         "name": "skip", "title": "What a scene does not need",
         "text": "Scenes in pairs, with the thing and without: what is not there is not paid for.",
         "plots": [{"series": with_and_without, "across": "milliseconds with it", "down": "milliseconds without", "caption": "Each pair of scenes."}],

@@ -1,0 +1,243 @@
+// heads.c - Suite `heads`, many heads of hair in one view, of which a few are near.
+#include "tools/bench/bench.h"
+#include "tools/common/stats.h"
+
+#include <epoxy/gl.h>
+#include <hair/hair_asset.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define MAX_HEADS 100
+#define NEAR_HEADS 12
+#define MAX_RUNS 31
+#define WARM_FRAMES 20
+#define WIDTH 1920
+#define HEIGHT 1080
+#define GUIDES 200
+#define FOLLOWERS 10000
+
+static const char* const columns[] = {"case",        "method", "heads", "ms",   "ms_cpu",
+                                      "us_cpu_head", "passes", "bytes", "runs", NULL};
+
+static const struct heads_case {
+    const char* name;
+    uint32_t near, far; // numbers of heads
+} cases[] = {{"1 near", 1, 0},
+             {"1 far", 0, 1},
+             {"12 near", NEAR_HEADS, 0},
+             {"12 far", 0, 12},
+             {"48 far", 0, 48},
+             {"88 far", 0, MAX_HEADS - NEAR_HEADS},
+             {"100 mixed", NEAR_HEADS, MAX_HEADS - NEAR_HEADS}};
+
+struct heads {
+    struct bench* bench;
+    struct heads_case scene;
+    bool by_list;
+    hair_groom* groom;
+    hair_instance* hair[MAX_HEADS];
+    GLuint frame, color, depth;
+    uint32_t frames;
+};
+
+static uint32_t count_heads(const struct heads* heads)
+{
+    return heads->scene.near + heads->scene.far;
+}
+
+static hair_result make_groom(struct bench* bench, hair_groom** out)
+{
+    hair_style_desc style = hair_style_desc_default();
+    hair_groom_desc desc = hair_groom_desc_default();
+    hair_asset* asset = NULL;
+    style.host = desc.host = &bench->host;
+    style.guide_count = GUIDES;
+    hair_result result = hair_asset_generate(&style, &asset);
+    if (!result) result = hair_asset_to_groom_desc(asset, &desc);
+    desc.follower_count = bench->options.strands ? bench->options.strands : FOLLOWERS;
+    if (!result) result = hair_groom_create(&desc, out);
+    hair_asset_destroy(asset);
+    return result;
+}
+
+static void die(struct heads* heads)
+{
+    for (uint32_t i = 0; i < count_heads(heads); ++i) hair_destroy(heads->hair[i]);
+    hair_groom_destroy(heads->groom);
+    glDeleteFramebuffers(1, &heads->frame);
+    glDeleteRenderbuffers(1, &heads->color);
+    glDeleteTextures(1, &heads->depth);
+}
+
+// Place near heads 1 to 2 m before the camera, and far heads 7 to 18 m, where a head is about 30
+// pixels large.
+static void place(const struct heads* heads, uint32_t i, float transform[16])
+{
+    bool near = i < heads->scene.near;
+    uint32_t k = near ? i : i - heads->scene.near;
+    float row = (float)(near ? k / 6 : k / 11), column = (float)(near ? k % 6 : k % 11);
+    float away = near ? 1.2f + 0.6f * row : 8 + 1.2f * row;
+    float angle = 0.4f * sinf(0.15f * (float)heads->frames + (float)i);
+    const float m[16] = {cosf(angle),
+                         0,
+                         -sinf(angle),
+                         0,
+                         0,
+                         1,
+                         0,
+                         0,
+                         sinf(angle),
+                         0,
+                         cosf(angle),
+                         0,
+                         (near ? 0.3f : 1.2f) * (column - (near ? 2.5f : 5)),
+                         near ? -1.6f : -1,
+                         -away,
+                         1};
+    memcpy(transform, m, sizeof m);
+}
+
+static hair_result live(struct heads* heads)
+{
+    hair_desc desc = hair_desc_default();
+    hair_look look = hair_look_default();
+    look.self_shadow.method = HAIR_SELF_SHADOW_STRANDS;
+    desc.look = &look;
+    hair_result result = make_groom(heads->bench, &heads->groom);
+    for (uint32_t i = 0; i < count_heads(heads) && !result; ++i) {
+        place(heads, i, desc.transform);
+        result = hair_create(heads->bench->context, heads->groom, &desc, &heads->hair[i]);
+    }
+    glCreateFramebuffers(1, &heads->frame);
+    glCreateRenderbuffers(1, &heads->color);
+    glNamedRenderbufferStorage(heads->color, GL_RGBA8, WIDTH, HEIGHT);
+    glNamedFramebufferRenderbuffer(heads->frame, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, heads->color);
+    glCreateTextures(GL_TEXTURE_2D, 1, &heads->depth);
+    glTextureStorage2D(heads->depth, 1, GL_DEPTH_COMPONENT32F, WIDTH, HEIGHT);
+    glNamedFramebufferTexture(heads->frame, GL_DEPTH_ATTACHMENT, heads->depth, 0);
+    return result;
+}
+
+// Let the skull of a head collide with the hair.
+static hair_result set_skull(hair_instance* hair, const float transform[16])
+{
+    hair_collider skull = hair_collider_default();
+    skull.size[0] = 0.09f;
+    for (int k = 0; k < 3; ++k) skull.position[k] = transform[12 + k] + (k == 1 ? 1.6f : 0);
+    return hair_set_colliders(hair, &skull, 1, sizeof skull);
+}
+
+static hair_view make_view(const hair_lod* lod)
+{
+    hair_view view = hair_view_default();
+    const float near = 0.1f, far = 100, focal = 1.7320508f; // a field of view of 60 degrees
+    memset(view.projection, 0, sizeof view.projection);
+    view.projection[0] = focal * HEIGHT / WIDTH;
+    view.projection[5] = focal;
+    view.projection[10] = (near + far) / (near - far);
+    view.projection[11] = -1;
+    view.projection[14] = 2 * near * far / (near - far);
+    view.render_path = HAIR_RENDER_PATH_AUTO;
+    view.light_count = 1;
+    view.lod = lod;
+    return view;
+}
+
+static hair_result step_and_draw(struct heads* heads, const hair_view* view)
+{
+    uint32_t count = count_heads(heads);
+    hair_result result = HAIR_OK;
+    if (heads->by_list) {
+        result = hair_step_list(heads->hair, count, 1.0f / 60);
+        return result ? result : hair_draw_list(heads->hair, count, view);
+    }
+    for (uint32_t i = 0; i < count && !result; ++i) result = hair_step(heads->hair[i], 1.0f / 60);
+    for (uint32_t i = 0; i < count && !result; ++i) result = hair_draw(heads->hair[i], view);
+    return result;
+}
+
+static hair_result run_frame(struct heads* heads, double* ms_cpu)
+{
+    hair_lod lod = hair_lod_default();
+    hair_view view = make_view(&lod);
+    hair_result result = HAIR_OK;
+    const float zero[4] = {0}, one = 1;
+    ++heads->frames;
+    glBindFramebuffer(GL_FRAMEBUFFER, heads->frame);
+    glViewport(0, 0, WIDTH, HEIGHT);
+    glEnable(GL_DEPTH_TEST);
+    glClearNamedFramebufferfv(heads->frame, GL_COLOR, 0, zero);
+    glClearNamedFramebufferfv(heads->frame, GL_DEPTH, 0, &one);
+    double start = hair_now();
+    for (uint32_t i = 0; i < count_heads(heads) && !result; ++i) {
+        float transform[16];
+        place(heads, i, transform);
+        result = hair_set_transform(heads->hair[i], transform);
+        if (!result) result = set_skull(heads->hair[i], transform);
+    }
+    if (!result) result = step_and_draw(heads, &view);
+    *ms_cpu = hair_now() - start;
+    return result || bench_was_interrupted() ? HAIR_ERROR_ARGUMENT : HAIR_OK;
+}
+
+static int compare(const void* a, const void* b)
+{
+    double x = *(const double*)a, y = *(const double*)b;
+    return (x > y) - (x < y);
+}
+
+// Measure frames with and without waiting for the GPU.
+static bool measure(struct heads* heads, json_t* row)
+{
+    double all[MAX_RUNS], cpu[MAX_RUNS], own = 0;
+    uint32_t runs = 0, max = heads->bench->options.quick ? 3 : MAX_RUNS;
+    hair_result result = live(heads);
+    for (uint32_t i = 0; i < WARM_FRAMES && !result; ++i) {
+        result = run_frame(heads, &own);
+        glFinish();
+    }
+    double start = hair_now();
+    for (; runs < max && !result && (runs < 3 || hair_now() - start < 4000); ++runs) {
+        double begin = hair_now();
+        result = run_frame(heads, &cpu[runs]);
+        glFinish();
+        all[runs] = hair_now() - begin;
+    }
+    hair_report_info info = hair_report_info_default();
+    hair_report_row works[64];
+    uint32_t count = 0, ran = 0;
+    hair_memory memory = hair_memory_default();
+    if (!result) result = hair_report(heads->hair[0], true, &info, works, sizeof *works, 64, &count);
+    if (!result) result = hair_get_memory(heads->bench->context, &memory);
+    if (result) return false;
+    for (uint32_t i = 0; i < count && i < 64; ++i) ran += works[i].skip_reason == HAIR_SKIP_REASON_NONE;
+    qsort(all, runs, sizeof *all, compare);
+    qsort(cpu, runs, sizeof *cpu, compare);
+    bench_set_number(row, "ms", all[runs / 2]);
+    bench_set_number(row, "ms_cpu", cpu[runs / 2]);
+    bench_set_number(row, "us_cpu_head", 1e3 * cpu[runs / 2] / count_heads(heads));
+    bench_set_count(row, "passes", ran);
+    bench_set_count(row, "bytes", memory.bytes);
+    bench_set_count(row, "runs", runs);
+    return true;
+}
+
+static const char* const methods[] = {"one by one", "list"};
+
+static void run(struct bench* bench)
+{
+    for (size_t i = 0; i < 2 * sizeof cases / sizeof *cases; ++i) {
+        struct heads heads = {.bench = bench, .scene = cases[i / 2], .by_list = i % 2};
+        const char *name = heads.scene.name, *method = methods[i % 2];
+        if (!bench_begin(bench, name, method)) continue;
+        json_t* row = bench_rows_add(&bench->rows);
+        bench_set_text(row, "case", name);
+        bench_set_text(row, "method", method);
+        bench_set_count(row, "heads", count_heads(&heads));
+        if (!measure(&heads, row)) bench_refuse(bench, name, method);
+        die(&heads);
+    }
+}
+
+const struct bench_suite bench_heads = {"heads", "many heads in one view, by time and memory", columns, run};
