@@ -214,7 +214,7 @@ static void lists_are_checked_before_anything_changes(void** state)
     free_crowd(&crowd);
 }
 
-// Refusals --------------------------------------------------------------------------------------------
+// Refusals ----------------------------------------------------------------------------------------
 
 #define REFUSED_HEADS 3
 #define MAX_SITES 200
