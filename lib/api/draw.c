@@ -231,12 +231,12 @@ hair_result hair_draw_list(hair_instance* const* list, uint32_t count, const hai
     struct hair_view_copy own;
     HAIR_TRY(check_view(list[0], view, &own));
     const hair_host* host = &list[0]->context->host;
-    uint32_t most = count < HAIR_GL_STREAMS ? count : HAIR_GL_STREAMS;
-    struct hair_draw_plan* plans = hair_alloc(host, most, sizeof *plans);
+    uint32_t max = count < HAIR_GL_STREAMS ? count : HAIR_GL_STREAMS;
+    struct hair_draw_plan* plans = hair_alloc(host, max, sizeof *plans);
     if (!plans) return hair_fail_memory(host, "a list of instances");
     hair_result first = HAIR_OK;
-    for (uint32_t i = 0; i < count && first != HAIR_ERROR_CONTEXT_LOST; i += most) {
-        struct batch batch = {.hair = list + i, .count = count - i < most ? count - i : most, .plan = plans};
+    for (uint32_t i = 0; i < count && first != HAIR_ERROR_CONTEXT_LOST; i += max) {
+        struct batch batch = {.hair = list + i, .count = count - i < max ? count - i : max, .plan = plans};
         hair_result result = draw_batch(&batch, &own.view);
         if (!first || result == HAIR_ERROR_CONTEXT_LOST) first = result;
     }
