@@ -351,7 +351,7 @@ static void head_of_100000_strands_is_small_and_loads_fast(void** state)
     assert_true(max_error(&asset.strands, &again->strands) <= 5e-6);
     assert_true(file.size < 15000000);
 #ifdef NDEBUG
-    assert_true(time < 0.5);
+    assert_true(getenv("HAIR_TEST_SLOW") || time < 0.5);
 #endif
     hair_asset_free(again);
     free(file.bytes);

@@ -283,6 +283,7 @@ bool hair_gltf_find(struct hair_gltf_reader* reader, const struct hair_json* at,
         !hair_json_count(&inside, from, "byteOffset", 0, (uint32_t)view.size - 1, &offset))
         return false;
     uint32_t room = (uint32_t)view.size - offset;
+    // NOLINTNEXTLINE(clang-analyzer-core.DivideZero): every type has components.
     uint32_t max = room < element ? 0 : (room - element) / out->stride + 1;
     if (max == 0 ||
         !hair_json_count(&inside, from, "count", 1, max < MAX_COUNT ? max : MAX_COUNT, &out->count))
