@@ -56,7 +56,13 @@ static struct hair_test_file write_groomfile(bool has_all)
         weights[16] = {1, 0, 0, 0, 0.5f, 0.5f, 0, 0, 0.25f, 0.25f, 0.25f, 0.25f, 0, 0, 0, 1};
     static uint16_t joints[16] = {0, 0, 0, 0, 1, 2, 0, 0, 1, 2, 3, 4, 0, 0, 0, 4};
     hair_asset asset = {.strand_set = HAIR_STRAND_SET_GUIDES,
-                        .strands = {positions, vertices, radii, colors, groups, STRANDS, VERTICES},
+                        .strands = {.positions = positions,
+                                    .vertices = vertices,
+                                    .radii = radii,
+                                    .colors = colors,
+                                    .groups = groups,
+                                    .strand_count = STRANDS,
+                                    .vertex_count = VERTICES},
                         .scalp_positions = scalp,
                         .scalp_triangles = triangles,
                         .scalp_density = density,

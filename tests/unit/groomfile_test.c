@@ -339,7 +339,12 @@ static void head_of_100000_strands_is_small_and_loads_fast(void** state)
         radii[i] = 3e-5f + 1e-5f * hair_random(&random);
         groups[i] = i % 3;
     }
-    hair_asset asset = {.strands = {positions, vertices, radii, NULL, groups, count, 25 * count}};
+    hair_asset asset = {.strands = {.positions = positions,
+                                    .vertices = vertices,
+                                    .radii = radii,
+                                    .groups = groups,
+                                    .strand_count = count,
+                                    .vertex_count = 25 * count}};
     struct hair_test_file file = hair_test_write_file(&asset, HAIR_FORMAT_GROOM);
     hair_import import = hair_test_import();
     hair_asset* again = NULL;
