@@ -103,7 +103,7 @@ static hair_result draw_surroundings(hair_instance* hair, const hair_view* view)
 }
 
 // Do everything before the pass that draws, with the context entered.
-static hair_result prepare(hair_instance* hair, struct hair_draw_plan* plan)
+static hair_result prepare_draw(hair_instance* hair, struct hair_draw_plan* plan)
 {
     const hair_view* view = plan->view;
     const struct hair_pose* head = &hair->sim.head_at_last_step;
@@ -146,7 +146,7 @@ hair_result hair_draw(hair_instance* hair, const hair_view* view)
         hair_draw_free_unused(&hair->renderer, hair->profiler.number);
         result = draw_surroundings(hair, &own.view);
     } else {
-        result = prepare(hair, &plan);
+        result = prepare_draw(hair, &plan);
         if (!result) hair_draw_finish(&hair->renderer, &plan);
     }
     result = hair_leave(hair->context, result);
@@ -157,7 +157,7 @@ hair_result hair_draw(hair_instance* hair, const hair_view* view)
 // Lists -------------------------------------------------------------------------------------------
 
 // Instances of a list that are drawn together, with their plans.
-struct batch {
+struct draw_batch {
     hair_instance* const* hair;
     uint32_t count;
     struct hair_draw_plan* plan;
@@ -167,13 +167,13 @@ struct batch {
 };
 
 // Prepare all instances side by side, and then draw them in their order.
-static void draw_recorded(struct hair_gl* gl, struct batch* batch)
+static void draw_recorded(struct hair_gl* gl, struct draw_batch* batch)
 {
     for (uint32_t i = 0; i < batch->drawn; ++i) {
         hair_instance* hair = batch->of[i];
         hair_gl_set_owner(gl, &hair->memory, &hair->profiler);
         hair_gl_begin_stream(gl);
-        batch->result[i] = prepare(hair, &batch->plan[i]);
+        batch->result[i] = prepare_draw(hair, &batch->plan[i]);
     }
     for (uint32_t i = 0; i < batch->drawn; ++i) {
         if (batch->result[i]) continue;
@@ -184,7 +184,7 @@ static void draw_recorded(struct hair_gl* gl, struct batch* batch)
     hair_gl_end_recording(gl);
 }
 
-static void draw_in_turn(struct hair_gl* gl, struct batch* batch, const hair_view* view)
+static void draw_in_turn(struct hair_gl* gl, struct draw_batch* batch, const hair_view* view)
 {
     for (uint32_t i = 0; i < batch->drawn; ++i) {
         hair_instance* hair = batch->of[i];
@@ -193,13 +193,13 @@ static void draw_in_turn(struct hair_gl* gl, struct batch* batch, const hair_vie
             batch->result[i] = draw_surroundings(hair, view);
             continue;
         }
-        batch->result[i] = prepare(hair, &batch->plan[i]);
+        batch->result[i] = prepare_draw(hair, &batch->plan[i]);
         if (!batch->result[i]) hair_draw_finish(&hair->renderer, &batch->plan[i]);
     }
 }
 
 // Draw a batch. Return the first failure.
-static hair_result draw_batch(struct batch* batch, const hair_view* view)
+static hair_result draw_all(struct draw_batch* batch, const hair_view* view)
 {
     hair_context* context = batch->hair[0]->context;
     struct hair_gl* gl = &context->gl;
@@ -236,8 +236,9 @@ hair_result hair_draw_list(hair_instance* const* list, uint32_t count, const hai
     if (!plans) return hair_fail_memory(host, "a list of instances");
     hair_result first = HAIR_OK;
     for (uint32_t i = 0; i < count && first != HAIR_ERROR_CONTEXT_LOST; i += max) {
-        struct batch batch = {.hair = list + i, .count = count - i < max ? count - i : max, .plan = plans};
-        hair_result result = draw_batch(&batch, &own.view);
+        struct draw_batch batch = {
+            .hair = list + i, .count = count - i < max ? count - i : max, .plan = plans};
+        hair_result result = draw_all(&batch, &own.view);
         if (!first || result == HAIR_ERROR_CONTEXT_LOST) first = result;
     }
     hair_free(host, plans);

@@ -118,7 +118,7 @@ hair_result hair_check_list(hair_instance* const* list, uint32_t count)
 }
 
 // Instances of a list that are awake, and are stepped side by side.
-struct batch {
+struct step_batch {
     hair_instance* hair[HAIR_GL_STREAMS];
     double time[HAIR_GL_STREAMS];
     uint32_t count;
@@ -135,7 +135,7 @@ static hair_result step_entered(hair_instance* hair, double time)
 }
 
 // Step all instances of a batch. Return the first failure.
-static hair_result step_batch(hair_context* context, struct batch* batch)
+static hair_result step_all(hair_context* context, struct step_batch* batch)
 {
     struct hair_gl* gl = &context->gl;
     if (!batch->count) return HAIR_OK;
@@ -173,7 +173,7 @@ hair_result hair_step_list(hair_instance* const* list, uint32_t count, float dt)
     HAIR_TRY(check_dt(list[0], dt));
     if (dt == 0) return HAIR_OK;
     if (context->gl.is_lost) return hair_check_current(context);
-    struct batch batch = {.count = 0};
+    struct step_batch batch = {.count = 0};
     hair_result first = HAIR_OK, result;
     for (uint32_t i = 0; i < count; ++i) {
         double time = bound_time(list[i], (double)dt);
@@ -181,10 +181,10 @@ hair_result hair_step_list(hair_instance* const* list, uint32_t count, float dt)
         batch.hair[batch.count] = list[i];
         batch.time[batch.count++] = time;
         if (batch.count < HAIR_GL_STREAMS) continue;
-        result = step_batch(context, &batch);
+        result = step_all(context, &batch);
         if (!first) first = result;
         if (result == HAIR_ERROR_CONTEXT_LOST) return result;
     }
-    result = step_batch(context, &batch);
+    result = step_all(context, &batch);
     return result == HAIR_ERROR_CONTEXT_LOST || !first ? result : first;
 }

@@ -21,7 +21,7 @@ static void write_shadow_params(const struct hair_renderer* renderer, const stru
 
 // Return the nodes that the density grid needs for cells of `cell` m. The cells of hair that swings
 // out of the sphere around its rest pose become larger. Hair that may come off gets all nodes.
-static uint32_t count_nodes(const struct hair_renderer* renderer, double cell)
+static uint32_t count_grid_nodes(const struct hair_renderer* renderer, double cell)
 {
     double across = 2 * (double)renderer->reach.w / cell + 3, nodes = across * across * across;
     HAIR_ASSERT(cell > 0);
@@ -40,7 +40,7 @@ hair_result hair_draw_ensure_self_shadow(struct hair_renderer* renderer, struct 
         write_shadow_params(renderer, plan, &whole, &all);
         drawn.origin.w = all.origin.w; // The size of the cells in the shared grid.
     }
-    uint32_t nodes = count_nodes(renderer, (double)all.origin.w);
+    uint32_t nodes = count_grid_nodes(renderer, (double)all.origin.w);
     hair_result result = hair_lighting_ensure_grid(renderer->lighting, nodes, all.light_values);
     if (result) return result;
     return hair_lighting_update_self_shadow(renderer->lighting, renderer->geometry, plan->view, &all, &drawn,

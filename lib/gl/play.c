@@ -105,8 +105,8 @@ static void use_program(struct hair_gl* gl, GLuint program)
     gl->recorder->program = program;
 }
 
-static void dispatch(struct hair_gl* gl, const struct hair_gl_stream* stream,
-                     const struct hair_gl_command* command)
+static void play_dispatch(struct hair_gl* gl, const struct hair_gl_stream* stream,
+                          const struct hair_gl_command* command)
 {
     bind_stream(gl, stream);
     use_program(gl, command->name);
@@ -146,7 +146,7 @@ static void play(struct hair_gl* gl, struct hair_gl_stream* stream, const struct
     case HAIR_GL_FENCE: *command->fence = gl->FenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0); break;
     case HAIR_GL_DISPATCH_WHOLE: gl->ProgramUniform2ui(command->name, HAIR_LOCATION_GROUPS, 0, 0); break;
     case HAIR_GL_DISPATCH:
-    case HAIR_GL_DISPATCH_INDIRECT: dispatch(gl, stream, command); break;
+    case HAIR_GL_DISPATCH_INDIRECT: play_dispatch(gl, stream, command); break;
     }
 }
 
