@@ -236,6 +236,9 @@ static hair_result write_marked(struct hair_collider_field* field)
     field->writes += ran != 0;
     // Order these writes before later writes to the field, and before readbacks by the application.
     if (ran) hair_gl_barrier(gl, GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT);
+    // Passes that are recorded later would bind these images again.
+    for (GLuint unit = HAIR_IMAGE_FIELD; ran && unit <= HAIR_IMAGE_COLLIDER; ++unit)
+        hair_gl_bind_image(gl, unit, 0, false, GL_READ_ONLY, GL_R8);
     return result;
 }
 

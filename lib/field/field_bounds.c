@@ -207,12 +207,12 @@ int hair_field_has_moved(const struct hair_field_box* box, const struct hair_pla
                          0
                      ? -1.0f
                      : 1.0f;
-    float turn = 0;
+    float turn = 0; // Squared. A sphere may turn.
     hair_vec3 way =
         hair_v3(b->position.x - a->position.x, b->position.y - a->position.y, b->position.z - a->position.z);
     const float d[] = {b->rotation.x - sign * a->rotation.x, b->rotation.y - sign * a->rotation.y,
                        b->rotation.z - sign * a->rotation.z, b->rotation.w - sign * a->rotation.w};
-    for (int i = 0; i < 4; ++i) turn += d[i] * d[i];
+    for (int i = 0; i < 4 && a->shape != HAIR_SHAPE_SPHERE; ++i) turn += d[i] * d[i];
     return !(hair_length(way) + 2 * sqrtf(turn) * arm <= STILL * box->voxel);
 }
 

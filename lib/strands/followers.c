@@ -57,7 +57,7 @@ void hair_geometry_write_params(const struct hair_geometry* geometry, struct hai
     out->chunks = hair_geometry_chunk_count(geometry, 1);
     out->strand_fraction = 1;
     out->segment_fraction = 1;
-    hair_look_write_curves(look, &out->strand);
+    out->strand = geometry->strand_look;
     out->strand.factor_slots = geometry->factors.slots;
     out->strand.factor_count = geometry->factors.count;
     out->strand.max_offset = hair_geometry_max_offset(geometry);

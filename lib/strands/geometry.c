@@ -24,6 +24,7 @@ hair_result hair_geometry_create(struct hair_geometry* geometry, struct hair_gl*
 {
     geometry->gl = gl;
     geometry->look = *look;
+    hair_look_write_curves(look, &geometry->strand_look);
     geometry->follower_collision.prepass = uses_prepass;
     geometry->lengths = &sim->lengths;
     geometry->guides = sim->guides;
@@ -127,6 +128,7 @@ void hair_geometry_set_look(struct hair_geometry* geometry, const hair_look* loo
 {
     if (memcmp(look, &geometry->look, sizeof *look) != 0) hair_geometry_invalidate(geometry);
     geometry->look = *look;
+    hair_look_write_curves(look, &geometry->strand_look);
 }
 
 void hair_geometry_invalidate_guides(struct hair_geometry* geometry)

@@ -35,6 +35,7 @@ struct hair_geometry {
     struct hair_smooth smooth; // Smoothed guides.
     const struct hair_lengths* lengths; // Lengths of followers.
     hair_look look; // Look after hair_look_apply_wetness().
+    struct hair_strand_look strand_look; // Curves of `look`, for shaders.
     struct hair_follower_buffer follower;
     struct hair_group_look_buffer groups;
     struct hair_strand_factor_buffer factors;
