@@ -95,7 +95,7 @@ strand_vertex strand_at(uint number, float t, float width, float widened)
 {
     hair_follower follower = fetch_follower(number);
     hair_point    point    = evaluate(follower, number, t);
-    vec3          moved    = vec3(0.0);
+    vec3          moved = vec3(0.0), tangent = point.tangent;
 #ifdef HAIR_WIDENED
     if (widened > 1.0) moved = gather(follower, whole_t(t), point.radius * (widened - 1.0), point);
 #endif
@@ -116,6 +116,8 @@ strand_vertex strand_at(uint number, float t, float width, float widened)
             .rgb;
 #else
     if (draw.colored != 0u) {
+        // A wider strand stands for others, which point as this one did before it moved.
+        point.tangent   = tangent;
         hair_fragment f = fragment_of(follower, number, point, t);
         v.color         = shade(f);
         v.place.yz      = f.uv;
