@@ -52,13 +52,23 @@ bool is_occluded(vec3 eye, vec3 center, float radius)
     return between + asin(min(radius / b, 1.0)) < head_sphere;
 }
 
+// Return the fraction of a patch's strands that are drawn where a metre has `size` pixels.
+float fraction_at(float size)
+{
+    float pixels = 2.0 * draw.radius * size;
+    return draw.strand_fraction * clamp(pixels / draw.strand_pixels, draw.min_strand_fraction, 1.0);
+}
+
+// Return the factor of the width that compensates for the strands left out.
+float widening_of(float fraction) { return pow(max(fraction, 1e-6), -draw.width_power); }
+
 // Return the level of detail of a patch. `patch_` holds the patch's reach, length and importance.
 hair_detail find_detail(uint guide, vec4 patch_)
 {
     float max_value   = float(draw.segments) * draw.segment_fraction;
     float fraction  = draw.strand_fraction, segments = max(max_value, 1.0);
     if (draw.culls == 0u && draw.pixels_per_unit == 0.0)
-        return hair_detail(fraction, segments, pow(max(fraction, 1e-6), -draw.width_power));
+        return hair_detail(fraction, segments, widening_of(fraction));
     vec3  root  = guide_at(guide, 0u);
     float reach = draw.max_radius + GIVE * draw.strand.max_width * patch_.x +
                   draw.strand.max_stray * patch_.y + draw.strand.max_offset;
@@ -74,8 +84,8 @@ hair_detail find_detail(uint guide, vec4 patch_)
             if (is_occluded(eye, root, reach)) return hair_detail(0.0, 1.0, 1.0);
             size *= mix(1.0, draw.occluded_importance, occluded_at(eye, root));
         }
-        fraction *= clamp(2.0 * draw.radius * size / draw.strand_pixels, draw.min_strand_fraction, 1.0);
+        fraction = fraction_at(size);
         segments = clamp(patch_.y * size / draw.segment_pixels, min(MIN_SEGMENTS, segments), segments);
     }
-    return hair_detail(fraction, segments, pow(max(fraction, 1e-6), -draw.width_power));
+    return hair_detail(fraction, segments, widening_of(fraction));
 }

@@ -264,7 +264,8 @@ typedef struct hair_light {
     /// 2D depth texture of the hair, rendered from the light with HAIR_PASS_DEPTH. It attenuates
     /// the light. Opaque geometry in the texture attenuates only as hair would. A red channel of 16
     /// bits or more may hold the depth too. An array, a cube map or an array of cube maps, with
-    /// immutable storage (glTexStorage), may hold the map in a layer. 0 disables it.
+    /// immutable storage (glTexStorage), may hold the map in a layer. HAIR_SELF_SHADOW_STRANDS
+    /// expects that the map was drawn with the lod of this view. 0 disables it.
     uint32_t hair_shadow_map; ///< Default 0.
     /// Transform from the world to the clip space of both shadow maps. It is orthographic or, for
     /// points and spots, in perspective. Depth grows away from the light, unless
