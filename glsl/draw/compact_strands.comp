@@ -16,6 +16,6 @@ void main()
     for (uint i = gl_LocalInvocationID.x; i < lines.strands; i += HAIR_GROUP_SIZE) {
         float fraction = i + 1u == lines.strands ? lines.fading : 1.0;
         strand[start[number] + i] =
-            hair_strand(lines.first + i, lines.thickness * fraction, lines.widened, lines.whole);
+            hair_strand(lines.first + i, lines.drawn * fraction, lines.widened, lines.whole);
     }
 }

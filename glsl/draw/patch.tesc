@@ -23,7 +23,7 @@ void main()
     uint first    = vertex_patch[0].y % parts * HAIR_MAX_ISOLINE_SEGMENTS;
     uint segments = min(all.segments - min(first, all.segments), uint(HAIR_MAX_ISOLINE_SEGMENTS));
     lines         = uvec4(all.first + before, strands, first, segments);
-    whole         = vec4(all.whole, all.thickness, left == strands ? all.fading : 1.0, all.widened);
+    whole         = vec4(all.whole, all.drawn, left == strands ? all.fading : 1.0, all.widened);
 
     // A level of 0 discards the patch. Levels that isolines do not use are written too, because
     // drivers differ.

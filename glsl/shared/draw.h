@@ -134,7 +134,9 @@ struct hair_draw_params {
     float     max_radius; // Maximum radius of a drawn strand, m.
     // Parallelism of the strands where no pass measures their vertices, from 0 for curls to 1.
     float     order;
-    hair_uint unused0, unused1, unused2;
+    hair_uint unused0;
+    float     curl_slope;  // Mean square slope of curls, see hair_lighting_find_curl().
+    float     curl_rate;   // Phase of curls by length along a strand, radians/m.
     hair_vec4 map_weights; // Weights of the sets of maps. Their sum is 1.
     // Parameters of the level of detail.
 

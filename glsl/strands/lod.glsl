@@ -10,6 +10,7 @@ struct hair_detail {
     float strands;   // Fraction.
     float segments;
     float thickness; // Factor that compensates for the strands left out.
+    float wider;     // Factor that compensates for the curls that long segments cut off.
 };
 
 vec3 guide_at(uint guide, uint sample_)
@@ -62,17 +63,33 @@ float fraction_at(float size)
 // Return the factor of the width that compensates for the strands left out.
 float widening_of(float fraction) { return pow(max(fraction, 1e-6), -draw.width_power); }
 
+// Return the area that a curled strand covers when its segments have a length, m, in areas of a
+// straight strand. The sides of a segment are perpendicular to the tangents at its ends, from which
+// its own direction differs by the turn between them.
+float find_area(float part)
+{
+    float turn = draw.curl_rate * part;
+    return 1.0 + (turn < 3.1415927 ? draw.curl_slope * sin(turn) / max(turn, 1e-6) : 0.0);
+}
+
+// Return the factor by which a strand with fewer segments must be wider to cover the same area.
+float compensate(float length_, float segments)
+{
+    float all = float(draw.segments);
+    return segments < all ? find_area(length_ / all) / find_area(length_ / segments) : 1.0;
+}
+
 // Return the level of detail of a patch. `patch_` holds the patch's reach, length and importance.
 hair_detail find_detail(uint guide, vec4 patch_)
 {
     float max_value   = float(draw.segments) * draw.segment_fraction;
     float fraction  = draw.strand_fraction, segments = max(max_value, 1.0);
     if (draw.culls == 0u && draw.pixels_per_unit == 0.0)
-        return hair_detail(fraction, segments, widening_of(fraction));
+        return hair_detail(fraction, segments, widening_of(fraction), compensate(patch_.y, segments));
     vec3  root  = guide_at(guide, 0u);
     float reach = draw.max_radius + GIVE * draw.strand.max_width * patch_.x +
                   draw.strand.max_stray * patch_.y + draw.strand.max_offset;
-    if (draw.culls > 0u && !is_in_view(root, reach)) return hair_detail(0.0, 1.0, 1.0);
+    if (draw.culls > 0u && !is_in_view(root, reach)) return hair_detail(0.0, 1.0, 1.0, 1.0);
     if (draw.pixels_per_unit > 0.0) {
         float scale =
             max(pixels_per_metre(root), max(pixels_per_metre(guide_at(guide, draw.smooth_vertices / 2u)),
@@ -81,11 +98,11 @@ hair_detail find_detail(uint guide, vec4 patch_)
         if (draw.head_sphere.w > 0.0) {
             vec3 eye = draw.eye.w > 0.0 ? draw.eye.xyz
                                         : draw.head_sphere.xyz + 1000.0 * draw.head_sphere.w * draw.eye.xyz;
-            if (is_occluded(eye, root, reach)) return hair_detail(0.0, 1.0, 1.0);
+            if (is_occluded(eye, root, reach)) return hair_detail(0.0, 1.0, 1.0, 1.0);
             size *= mix(1.0, draw.occluded_importance, occluded_at(eye, root));
         }
         fraction = fraction_at(size);
         segments = clamp(patch_.y * size / draw.segment_pixels, min(MIN_SEGMENTS, segments), segments);
     }
-    return hair_detail(fraction, segments, widening_of(fraction));
+    return hair_detail(fraction, segments, widening_of(fraction), compensate(patch_.y, segments));
 }

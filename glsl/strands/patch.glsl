@@ -13,7 +13,8 @@ struct hair_patch_lines {
     uint  segments;  // Segments of a whole strand.
     float whole;     // Segments, with the last one as a fraction.
     float fading;    // Fraction of its width that the last strand has.
-    float thickness; // Factor of the width of all strands.
+    float thickness; // Factor of the width of all strands that have all segments.
+    float drawn; // Factor of the width with the segments that are drawn.
     float widened;   // Factor within `thickness` that compensates for strands that are left out.
 };
 
@@ -22,11 +23,11 @@ hair_patch_lines find_lines(uint number)
     int   at     = int(number) * HAIR_PATCH_TEXELS;
     uvec4 record = texelFetch(patch_texture, at); // hair_patch
 #ifdef HAIR_EVERY_FOLLOWER
-    return hair_patch_lines(record.x, record.y, draw.segments, float(draw.segments), 1.0, 1.0, 1.0);
+    return hair_patch_lines(record.x, record.y, draw.segments, float(draw.segments), 1.0, 1.0, 1.0, 1.0);
 #else
 #ifdef HAIR_OCCLUSION
     if (texelFetch(patch_texture, at + 3).w != 0u)
-        return hair_patch_lines(record.x, 0u, 1u, 1.0, 1.0, 1.0, 1.0);
+        return hair_patch_lines(record.x, 0u, 1u, 1.0, 1.0, 1.0, 1.0, 1.0);
 #endif
     float mapped    = dot(uintBitsToFloat(texelFetch(patch_texture, at + 1)), draw.map_weights);
     float thickness = dot(uintBitsToFloat(texelFetch(patch_texture, at + 2)), draw.map_weights);
@@ -36,6 +37,7 @@ hair_patch_lines find_lines(uint number)
     float       wanted  = float(record.y) * fraction * detail.strands;
     uint        strands = uint(ceil(wanted));
     return hair_patch_lines(record.x, strands, uint(ceil(detail.segments)), detail.segments,
-                            1.0 - (float(strands) - wanted), thickness * detail.thickness, detail.thickness);
+                            1.0 - (float(strands) - wanted), thickness * detail.thickness,
+                            thickness * detail.thickness * detail.wider, detail.thickness);
 #endif
 }

@@ -30,23 +30,27 @@ void hair_draw_find_extent(struct hair_renderer* renderer, const struct hair_gro
     }
 }
 
-// Return the maximum factor by which a level of detail widens strands.
-static double max_widening(const hair_lod* lod)
+// Return the maximum factor by which a level of detail widens strands. Segments that cut curls off
+// are wider too.
+static double max_widening(const struct hair_renderer* renderer, const hair_lod* lod)
 {
+    float slope, rate;
     if (!lod) return 1;
+    hair_lighting_find_curl(renderer->lighting, &renderer->geometry->look, &slope, &rate);
     return pow(fmax((double)(lod->strand_fraction * (lod->per_patch ? lod->min_strand_fraction : 1)), 1e-6),
-               -(double)lod->width_exponent);
+               -(double)lod->width_exponent) *
+           (1 + (double)slope);
 }
 
 double hair_draw_max_radius(const struct hair_renderer* renderer, const hair_lod* lod)
 {
-    return hair_geometry_max_radius(renderer->geometry) * max_widening(lod);
+    return hair_geometry_max_radius(renderer->geometry) * max_widening(renderer, lod);
 }
 
 double hair_draw_max_look_radius(const struct hair_renderer* renderer, const hair_lod* lod)
 {
     const hair_look* look = &renderer->geometry->look;
-    return (double)(look->strand.radius * hair_curve_max(&look->strand.taper)) * max_widening(lod);
+    return (double)(look->strand.radius * hair_curve_max(&look->strand.taper)) * max_widening(renderer, lod);
 }
 
 // Return how far hair reaches beyond the box of roots, in metres.

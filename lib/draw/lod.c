@@ -105,6 +105,7 @@ void hair_draw_write_lod(const struct hair_renderer* renderer, const struct hair
     out->strand_fraction = lod->strand_fraction;
     out->segment_fraction = lod->segment_fraction;
     out->width_power = lod->width_exponent;
+    hair_lighting_find_curl(renderer->lighting, &renderer->geometry->look, &out->curl_slope, &out->curl_rate);
     if (!lod->per_patch) return;
     out->pixels_per_unit = find_scale(renderer, view->projection);
     out->strand_pixels = lod->strand_pixels / fmaxf(lod->importance, 1e-6f);

@@ -57,6 +57,10 @@ void hair_lighting_measure_groom(struct hair_lighting* lighting, const struct ha
 // Return how parallel strands are: 1 for straight hair, and 0 for curls. The estimate is from the
 // guides at rest, and the curls and the frizz of the look.
 float hair_lighting_order(const struct hair_lighting* lighting, const hair_look* look);
+// Compute the mean square of the slope that a look's curls show to an eye, and their phase by
+// length along a strand, radians/m. The mean is weighted by the cosine of the slope.
+void hair_lighting_find_curl(const struct hair_lighting* lighting, const hair_look* look, float* slope,
+                             float* rate);
 
 // Shadow maps of one light of a view. `light` is the index of the light. `shadow` is the hair
 // shadow map, and `body` the opaque shadow map. 0 means no map.

@@ -9,6 +9,7 @@
 #define REACH 0.02f // m, along the strand to each side of a vertex.
 #define GUIDES 256 // Maximum number of guides that are measured.
 #define TAU 6.283185307f
+#define KNOTS (HAIR_CURVE_INTERVALS + 1) // of a hair_curve
 // Mean square of the slope of a cubic B-spline with random control points in the square [-1, 1]^2,
 // 1 apart along the strand. Frizz is such a spline.
 #define KINK_SLOPE (4 / 9.0f)
@@ -70,18 +71,39 @@ static float order_of_helix(float r2, float per_metre, float slope)
     return to_16th_power(fminf(sqrtf(axial * axial + r2 * across * across) / (2 * REACH), 1));
 }
 
-float hair_lighting_order(const struct hair_lighting* lighting, const hair_look* look)
+// Return the phase of curls by length along a strand, radians/m.
+static float find_curl_rate(const struct hair_lighting* lighting, const hair_look* look)
 {
     float length = fmaxf(lighting->groom_length * look->strand.length, 1e-3f);
-    float per_metre = TAU * (1 / look->curl.wavelength + look->curl.turns / length), sum = 0;
+    return TAU * (1 / look->curl.wavelength + look->curl.turns / length);
+}
+
+void hair_lighting_find_curl(const struct hair_lighting* lighting, const hair_look* look, float* slope,
+                             float* rate)
+{
+    float weights = 0, sum = 0;
+    *rate = find_curl_rate(lighting, look);
+    // An eye sees one of the two directions across a strand.
+    float square = 0.5f * square_of_curl(look) * look->curl.radius * look->curl.radius * *rate * *rate;
+    for (int i = 0; i < KNOTS; ++i) {
+        float own = square * look->curl.profile.at[i] * look->curl.profile.at[i];
+        float weight = 1 / sqrtf(1 + own);
+        weights += weight, sum += weight * own;
+    }
+    *slope = sum / weights;
+    HAIR_ASSERT(*slope >= 0 && *rate >= 0);
+}
+
+float hair_lighting_order(const struct hair_lighting* lighting, const hair_look* look)
+{
+    float per_metre = find_curl_rate(lighting, look), sum = 0;
     float curl = square_of_curl(look) * look->curl.radius * look->curl.radius;
     float frizzed = look->strays.frizz_fraction;
-    int knots = (int)(sizeof look->curl.profile.at / sizeof *look->curl.profile.at);
-    for (int i = 0; i < knots; ++i) {
+    for (int i = 0; i < KNOTS; ++i) {
         float r2 = curl * look->curl.profile.at[i] * look->curl.profile.at[i];
         float kink = look->strays.frizz.at[i] / look->strays.frizz_wavelength;
         sum += (1 - frizzed) * order_of_helix(r2, per_metre, 0) +
                frizzed * order_of_helix(r2, per_metre, KINK_SLOPE * kink * kink);
     }
-    return lighting->groom_order * sum / (float)knots;
+    return lighting->groom_order * sum / (float)KNOTS;
 }

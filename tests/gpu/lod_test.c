@@ -94,6 +94,33 @@ static void fewer_strands_cover_as_much_as_all(void** state)
     }
 }
 
+// Draw so few curled strands that they hardly overlap. Their coverage is their length times their
+// width, and segments that cut curls off are shorter.
+static void curls_of_few_segments_cover_as_much_as_all(void** state)
+{
+    static const hair_look_preset presets[] = {HAIR_LOOK_WAVY, HAIR_LOOK_CURLY};
+    for (int i = 0; i < 2; ++i) {
+        struct hair_test_scene f = start(state, HAIR_STYLE_LONG, 300, 2e-4f);
+        hair_lod lod = hair_lod_default();
+        hair_look look = hair_look_default();
+        hair_test_ok(f.test, hair_look_apply_preset(&look, presets[i]));
+        look.strand.radius = 2e-4f, look.strand.segments = 64;
+        hair_test_ok(f.test, hair_set_look(f.hair, &look));
+        double full = coverage_of(&f, 1.4f, NULL);
+        assert_true(full > 0.005);
+        lod.per_patch = false;
+        for (int k = 0; k < 3; ++k) {
+            static const float fractions[] = {0.4f, 0.2f, 0.1f};
+            lod.segment_fraction = fractions[k];
+            double covered = coverage_of(&f, 1.4f, &lod);
+            print_message("    %s, %2.0f %% of the segments: %.4f of the coverage\n",
+                          hair_look_name(presets[i]), 100.0 * (double)fractions[k], covered / full);
+            hair_test_near("coverage", (size_t)k, covered / full, 1, 0.07);
+        }
+        hair_test_scene_free(&f);
+    }
+}
+
 static float encode(float linear)
 {
     float x = fminf(fmaxf(linear, 0), 1);
@@ -360,6 +387,7 @@ int main(void)
     if (hair_test_skips()) return 0;
     const struct CMUnitTest tests[] = {
         HAIR_TEST(fewer_strands_cover_as_much_as_all),
+        HAIR_TEST(curls_of_few_segments_cover_as_much_as_all),
         HAIR_TEST(level_of_detail_changes_smoothly_with_distance),
         HAIR_TEST(strands_and_segments_are_reduced_without_popping),
         HAIR_TEST(push_out_fades_without_popping),
