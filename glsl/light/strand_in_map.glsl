@@ -83,9 +83,10 @@ strand_bit find_bit(uint vertex, uint k, float widened, float thickness)
 // Return the fraction of sample points around a vertex that nothing occludes in a shadow map.
 float open_in(uint map, uint light, vec3 to, strand_bit s)
 {
+    vec4  part  = draw.map_part[map];
     vec2  size  = vec2(textureSize(hair_shadow_map[map], 0));
     vec3  along = find_place_in_map(map, s.after) - find_place_in_map(map, s.before);
-    vec2  texels = along.xy * size;
+    vec2  texels = part.zw * along.xy * size;
     float slope = along.z / max(dot(texels, texels), 1.0); // Slope of depth along the strand.
     vec3  side  = cross(direction_or(s.after - s.before, vec3(0.0, 1.0, 0.0)), to);
     side *= s.radius / max(length(side), 1e-12);
@@ -96,10 +97,11 @@ float open_in(uint map, uint light, vec3 to, strand_bit s)
               across = 2.0 * fract(turn + 0.618034 * float(i + 1)) - 1.0;
         vec3  p  = s.at + 0.5 * abs(x) * ((x < 0.0 ? s.before : s.after) - s.at) + across * side;
         vec3  at = find_place_in_map(map, p);
-        ivec2 texel = ivec2(floor(at.xy * size));
+        vec2  here = (part.xy + part.zw * at.xy) * size;
+        ivec2 texel = min(ivec2(floor(here)), ivec2(size) - 1);
         // Depth of the strand itself at the centre of the texel.
-        float depth = at.z + slope * dot(vec2(texel) + 0.5 - at.xy * size, texels);
-        bool  there = all(greaterThanEqual(texel, ivec2(0))) && all(lessThan(texel, ivec2(size)));
+        float depth = at.z + slope * dot(vec2(texel) + 0.5 - here, texels);
+        bool  there = all(greaterThanEqual(at.xy, vec2(0.0))) && all(lessThan(at.xy, vec2(1.0)));
         float stored = depth_from_light(map, texelFetch(hair_shadow_map[map], texel, 0).r);
         open += !there || depth - own <= stored ? 1.0 : 0.0;
     }

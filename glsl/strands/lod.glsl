@@ -1,5 +1,8 @@
 // lod.glsl - level of detail: the fraction of its strands with which a patch is drawn, and the
 // number of their segments.
+#ifndef HAIR_LOD_GLSL
+#define HAIR_LOD_GLSL
+
 #include "strands/position_texture.glsl"
 
 #define MIN_SEGMENTS 2.0
@@ -106,3 +109,5 @@ hair_detail find_detail(uint guide, vec4 patch_)
     }
     return hair_detail(fraction, segments, widening_of(fraction), compensate(patch_.y, segments));
 }
+
+#endif

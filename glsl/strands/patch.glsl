@@ -3,6 +3,9 @@
 //
 // All of these change continuously. The last strand thins out before it disappears. Segments begin
 // at equal distances from the root, and the last segment shrinks.
+#ifndef HAIR_PATCH_GLSL
+#define HAIR_PATCH_GLSL
+
 #include "strands/lod.glsl"
 
 layout(binding = HAIR_UNIT_PATCH) uniform usamplerBuffer patch_texture;
@@ -41,3 +44,5 @@ hair_patch_lines find_lines(uint number)
                             thickness * detail.thickness * detail.wider, detail.thickness);
 #endif
 }
+
+#endif
