@@ -42,8 +42,8 @@ void hair_gl_dispatch_indirect(struct hair_gl* gl, GLuint program, GLuint buffer
 
 // Commands are recorded in streams, one per instance. The n-th barriers of all streams are one
 // barrier, so that a GPU runs the n-th parts of all streams side by side. A stream must not write
-// what another one reads or writes. Uniform buffers that are written get their data from a mapped
-// buffer, because the driver of an H200 lets the GPU become idle before it writes a buffer.
+// what another one reads or writes. The data of all uniform buffers are written by one copy,
+// because the driver of an H200 lets the GPU become idle before it writes a buffer.
 
 #define HAIR_GL_STREAMS 128 // Maximum streams that are recorded together.
 

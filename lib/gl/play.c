@@ -178,6 +178,7 @@ void hair_gl_flush(struct hair_gl* gl)
 {
     struct hair_gl_recorder* recorder = gl->recorder;
     if (!recorder || !recorder->count) return;
+    hair_gl_copy_chunks(gl);
     gl->PushDebugGroup(GL_DEBUG_SOURCE_THIRD_PARTY, recorder->streams, -1, "hair of several instances");
     for (bool goes_on = true; goes_on;) {
         GLbitfield barriers = 0;

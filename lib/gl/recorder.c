@@ -64,10 +64,12 @@ void hair_gl_record_write(struct hair_gl* gl, GLuint buffer, size_t size, const 
                                       .index = (uint32_t)(write - stream->write),
                                       .at = range.at,
                                       .size = range.size};
-    if (hair_gl_is_recording(gl))
+    if (hair_gl_is_recording(gl)) {
         hair_gl_record(gl, &command);
-    else
+    } else {
+        hair_gl_copy_chunks(gl);
         hair_gl_play(gl, &command);
+    }
 }
 
 static bool is_bound_by(const struct hair_gl_recorder* recorder, const struct hair_gl_stream* stream,

@@ -8,7 +8,7 @@
 #define HAIR_GL_UNIFORM_SLOTS (HAIR_BIND_FIELD + 1)
 #define HAIR_GL_IMAGE_SLOTS (HAIR_IMAGE_COLLIDER + 1)
 #define HAIR_GL_WRITES 32 // Maximum buffers that a stream writes.
-#define HAIR_GL_CHUNKS 64 // Maximum mapped buffers.
+#define HAIR_GL_CHUNKS 64 // Maximum chunks of memory for data.
 
 enum hair_gl_command_kind {
     HAIR_GL_BIND_STORAGE,
@@ -73,11 +73,11 @@ struct hair_gl_stream {
     uint32_t writes;
 };
 
-// A mapped buffer that receives data of uniform buffers.
+// Memory of the data of uniform buffers.
 struct hair_gl_chunk {
-    GLuint buffer;
+    GLuint staging, buffer; // Mapped buffer, and the one that shaders read.
     char* mapped;
-    size_t used;
+    size_t used, copied; // Bytes in the mapped buffer, and those copied from there.
     GLsync fence; // NULL once the GPU is known to be done with it.
 };
 
@@ -101,9 +101,12 @@ static inline struct hair_gl_stream* hair_gl_current_stream(struct hair_gl_recor
 
 // chunks.c ----------------------------------------------------------------------------------------
 
-// Copy data to mapped memory. Return false if there is none.
+// Write data to mapped memory. `out` has them after hair_gl_copy_chunks(). Return false if memory is
+// missing.
 bool hair_gl_upload(struct hair_gl* gl, size_t size, const void* data, struct hair_gl_range* out,
                     const void** mapped);
+// Copy data written since the last call to where shaders read them.
+void hair_gl_copy_chunks(struct hair_gl* gl);
 // Let chunks be used again once the GPU is done with this recording.
 void hair_gl_fence_chunks(struct hair_gl* gl);
 void hair_gl_free_chunks(struct hair_gl* gl);
