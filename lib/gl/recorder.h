@@ -101,8 +101,8 @@ static inline struct hair_gl_stream* hair_gl_current_stream(struct hair_gl_recor
 
 // chunks.c ----------------------------------------------------------------------------------------
 
-// Write data to mapped memory. `out` has them after hair_gl_copy_chunks(). Return false if memory is
-// missing.
+// Write data to mapped memory. `out` has the data after hair_gl_copy_chunks(). Return false if
+// memory is missing.
 bool hair_gl_upload(struct hair_gl* gl, size_t size, const void* data, struct hair_gl_range* out,
                     const void** mapped);
 // Copy data written since the last call to where shaders read them.
