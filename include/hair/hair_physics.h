@@ -292,8 +292,9 @@ HAIR_API hair_result hair_step(hair_instance* hair, float dt);
 /// the bit.
 ///
 /// A GPU computes the instances side by side, which takes a small part of the time that single
-/// calls take for small heads. hair_report() counts the stages of this call, but has no times of
-/// them. An instance that fails stays as it was, and the others are stepped.
+/// calls take for small heads. hair_report() counts the stages of this call, but neither
+/// hair_report() nor hair_get_timings() has times of them. An instance that fails stays as it was,
+/// and the others are stepped.
 ///
 /// @param list Instances of one context, each at most once. May be NULL if `count` is 0.
 /// @param count Number of instances.

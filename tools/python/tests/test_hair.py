@@ -195,6 +195,20 @@ class HairTest(unittest.TestCase):
         np.testing.assert_allclose(hair.read("guides"), at_rest, atol=1e-4)
         self.assertEqual(hair.solver_stats["reset"], 0)
 
+    def test_lists_act_as_single_calls(self):
+        listed, single = [self.make(), self.make()], [self.make(), self.make()]
+        for frame in range(3):
+            for k, hair in enumerate(listed + single):
+                hair.transform = turn(0.1 * frame + 0.3 * (k % 2))
+            libhair.step_list(listed, 1 / 60)
+            for hair in single:
+                hair.step(1 / 60)
+        for ours, theirs in zip(listed, single):
+            np.testing.assert_array_equal(ours.read("guides"), theirs.read("guides"))
+        libhair.step_list([], 1 / 60)
+        with self.assertRaisesRegex(libhair.HairArgumentError, "in the list before"):
+            libhair.draw_list([listed[0], listed[0]], libhair.View())
+
     def test_groups_have_physics_of_their_own(self):
         hair = self.make()
         physics = hair.group_physics(3)
