@@ -318,7 +318,7 @@ $(B)/tests/unit/bullet_%_test: $(B)/tests/unit/bullet_%_test.cpp.o $(SUPPORT) $(
 	$(Q)$(CXX) $(opt.$(config)) $^ -lBulletDynamics $(BULLET_LIBS) $(TEST_LIBS) -o $@
 
 # Run as many tests at once as there are cores, the longest first. tests/README.md has their times.
-LONG := bench rod_limits determinism soak threads rod_stress lod instance memory capture lengths occlusion golden capture_bullet \
+LONG := bench rod_limits determinism soak threads rod_stress lod instance list character memory capture lengths occlusion golden capture_bullet \
   capture_output bench_cases gallery state save_hostile rod_any rod_heap isolines hair_grid paths \
   precompile rod_contact rod_pins examples rod_two body save rod_whip rod_shape contained rod_bodies \
   instance_far air host_capture
