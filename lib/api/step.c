@@ -134,16 +134,18 @@ static hair_result step_entered(hair_instance* hair, double time)
     return result;
 }
 
-// Step all instances of a batch. Return the first failure.
+// Step all instances of a batch, and empty the batch. Return the first failure.
 static hair_result step_all(hair_context* context, struct step_batch* batch)
 {
     struct hair_gl* gl = &context->gl;
-    if (!batch->count) return HAIR_OK;
+    uint32_t count = batch->count;
+    batch->count = 0;
+    if (!count) return HAIR_OK;
     hair_result first = hair_check_current(context);
     if (first) return first;
     hair_enter(batch->hair[0]);
-    bool records = batch->count > 1 && hair_gl_begin_recording(gl, batch->count);
-    for (uint32_t i = 0; i < batch->count; ++i) {
+    bool records = count > 1 && hair_gl_begin_recording(gl, count);
+    for (uint32_t i = 0; i < count; ++i) {
         hair_instance* hair = batch->hair[i];
         hair_gl_set_owner(gl, &hair->memory, &hair->profiler);
         if (records) hair_gl_begin_stream(gl);
@@ -151,7 +153,6 @@ static hair_result step_all(hair_context* context, struct step_batch* batch)
         if (!first) first = result;
     }
     if (records) hair_gl_end_recording(gl);
-    batch->count = 0;
     return hair_leave(context, first);
 }
 

@@ -214,6 +214,26 @@ static void lists_are_checked_before_anything_changes(void** state)
     free_crowd(&crowd);
 }
 
+static void long_lists_are_refused_without_their_context(void** state)
+{
+    static hair_instance* list[2 * HAIR_GL_STREAMS + 1];
+    const uint32_t count = sizeof list / sizeof *list;
+    struct hair_test* test = *state;
+    hair_groom* groom = hair_test_groom(&test->host.host, hair_test_handmade_default());
+    hair_desc desc = hair_desc_default();
+    struct hair_gl* gl = &test->context->gl;
+    void* own = gl->own_context;
+    for (uint32_t i = 0; i < count; ++i)
+        hair_test_ok(test, hair_create(test->context, groom, &desc, &list[i]));
+    gl->own_context = list; // Another context appears to be current.
+    assert_int_equal(hair_step_list(list, count, 1.0f / 60), HAIR_ERROR_OPENGL);
+    assert_true(hair_test_forgive(test) > 0);
+    gl->own_context = own;
+    hair_test_ok(test, hair_step_list(list, count, 1.0f / 60));
+    for (uint32_t i = 0; i < count; ++i) hair_destroy(list[i]);
+    hair_groom_destroy(groom);
+}
+
 // Refusals ----------------------------------------------------------------------------------------
 
 #define REFUSED_HEADS 3
@@ -323,6 +343,7 @@ int main(void)
         HAIR_TEST(listed_steps_equal_single_steps),
         HAIR_TEST(listed_draws_equal_single_draws),
         HAIR_TEST(lists_are_checked_before_anything_changes),
+        HAIR_TEST(long_lists_are_refused_without_their_context),
         HAIR_TEST(a_refused_step_leaves_one_head_as_it_was),
     };
     return cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);
