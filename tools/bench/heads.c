@@ -1,11 +1,11 @@
 // heads.c - Suite `heads`, many heads of hair in one view, of which a few are near.
 #include "tools/bench/bench.h"
+#include "tools/bench/timer.h"
 #include "tools/common/stats.h"
 
 #include <epoxy/gl.h>
 #include <hair/hair_asset.h>
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #define MAX_HEADS 100
@@ -181,12 +181,6 @@ static hair_result run_frame(struct heads* heads, double* ms_cpu)
     return result || bench_was_interrupted() ? HAIR_ERROR_ARGUMENT : HAIR_OK;
 }
 
-static int compare(const void* a, const void* b)
-{
-    double x = *(const double*)a, y = *(const double*)b;
-    return (x > y) - (x < y);
-}
-
 // Measure frames with and without waiting for the GPU.
 static bool measure(struct heads* heads, json_t* row)
 {
@@ -212,11 +206,10 @@ static bool measure(struct heads* heads, json_t* row)
     if (!result) result = hair_get_memory(heads->bench->context, &memory);
     if (result) return false;
     for (uint32_t i = 0; i < count && i < 64; ++i) ran += works[i].skip_reason == HAIR_SKIP_REASON_NONE;
-    qsort(all, runs, sizeof *all, compare);
-    qsort(cpu, runs, sizeof *cpu, compare);
-    bench_set_number(row, "ms", all[runs / 2]);
-    bench_set_number(row, "ms_cpu", cpu[runs / 2]);
-    bench_set_number(row, "us_cpu_head", 1e3 * cpu[runs / 2] / count_heads(heads));
+    double ms_cpu = bench_times_of(cpu, runs).ms;
+    bench_set_number(row, "ms", bench_times_of(all, runs).ms);
+    bench_set_number(row, "ms_cpu", ms_cpu);
+    bench_set_number(row, "us_cpu_head", 1e3 * ms_cpu / count_heads(heads));
     bench_set_count(row, "passes", ran);
     bench_set_count(row, "bytes", memory.bytes);
     bench_set_count(row, "runs", runs);
