@@ -72,5 +72,5 @@ void main()
     uvec2 pixel = uvec2(gl_FragCoord.xy) - uvec2(raster.first_x, raster.first_y);
     if (pixel.x >= raster.columns || pixel.y >= raster.rows) discard;
     write((pixel.y * raster.columns + pixel.x) * raster.samples +
-          (raster.samples > 1u ? uint(gl_SampleID) : 0u));
+          (raster.samples > 1u ? uint(gl_SampleID) % raster.samples : 0u));
 }

@@ -202,6 +202,17 @@ typedef struct hair_report_info {
     /// Number of programs that the driver has compiled for the context. Programs that came from
     /// hair_context_desc.cache do not count.
     uint32_t compiled_programs;
+    /// GPU time of the calls of the newest measured frame of the context, ms. 0 without a budget,
+    /// see hair_set_budget().
+    float budget_used;
+    /// Importance that the budget leaves, the hair_lod.importance of views without a hair_lod.
+    /// Below 1 it also multiplies that of other views. 0 without a budget.
+    float budget_importance;
+    /// Factor of hair_physics.substep_rate that the budget leaves to the instance. 1 without a
+    /// budget.
+    float budget_substep_rate;
+    /// Fraction of the samples of a pixel that the budget leaves. 1 without a budget.
+    float budget_samples;
 } hair_report_info;
 HAIR_DESC(hair_report_info)
 
@@ -220,6 +231,30 @@ HAIR_DESC(hair_report_info)
 HAIR_API hair_result hair_report(hair_instance* hair, bool wait, hair_report_info* info,
                                  hair_report_row* rows, size_t stride, uint32_t capacity,
                                  uint32_t* count);
+
+// Budget ------------------------------------------------------------------------------------------
+
+/// Limit the GPU time that hair_step(), hair_draw() and the calls with lists take in a frame. All
+/// instances of the context then give up detail as far as the limit needs, small heads first:
+/// - hair_lod.importance falls. Views without a hair_lod get one that draws everything while the
+///   time suffices.
+/// - The substep rate of hair that is few pixels large, or that no view shows, falls by powers of
+///   two.
+/// - HAIR_RENDER_PATH_COMPUTE finds one half, then one quarter of the samples of a pixel.
+///
+/// hair_report_info tells what is given up. Time is measured by timestamps without waiting. Detail
+/// stays as it is while the time is between 80 and 100 % of the budget. A change takes about ten
+/// frames to act.
+///
+/// A frame ends when an instance is stepped that was stepped before, if a view was drawn between.
+/// While the hair rests, step it by 0 s. With a budget, motion depends on the time that a GPU
+/// takes. Do not set one where a simulation must be repeatable.
+///
+/// @param ms GPU time of a frame in ms. [0, 1000]. 0 disables the budget and brings back all
+///     detail. Default 0.
+/// Errors: HAIR_ERROR_ARGUMENT.
+/// OpenGL: not used. Thread of the context.
+HAIR_API hair_result hair_set_budget(hair_context* context, float ms);
 
 // Memory ------------------------------------------------------------------------------------------
 

@@ -282,8 +282,8 @@ HAIR_API hair_result hair_set_scalp_joints(hair_instance* hair, const float* mat
 /// on the frame rate, because the drawn hair is interpolated to the current time. The same inputs
 /// give the same bits on the same driver, except as hair_physics.sleep_threshold says.
 ///
-/// @param dt Time in s, at least 0. 0 does nothing. A time beyond hair_desc.max_dt is shortened to
-///     max_dt, with one warning in the log.
+/// @param dt Time in s, at least 0. 0 does nothing but count as a frame of hair_set_budget(). A
+///     time beyond hair_desc.max_dt is shortened to max_dt, with one warning in the log.
 /// Errors: HAIR_ERROR_ARGUMENT, HAIR_ERROR_MEMORY, HAIR_ERROR_OPENGL.
 /// OpenGL: required unless the hair is asleep. Does not wait for the GPU.
 HAIR_API hair_result hair_step(hair_instance* hair, float dt);

@@ -2,6 +2,7 @@
 #ifndef HAIR_API_API_H
 #define HAIR_API_API_H
 
+#include "lib/api/budget.h"
 #include "lib/asset/strands.h"
 #include "lib/base/schema.h"
 #include "lib/draw/draw.h"
@@ -21,6 +22,7 @@ struct hair_context {
     hair_host host;
     hair_context_desc desc; // of the creation. The memory behind its pointers may be gone.
     struct hair_gl gl;
+    struct hair_budget budget; // disabled unless hair_set_budget() sets one
     struct hair_fastest fastest; // render paths that HAIR_RENDER_PATH_AUTO selects
     struct hair_sdf_pool sdf_pool; // shared by the fields of all instances
     struct hair_context_member* members; // all that own something, newest first
@@ -85,6 +87,7 @@ struct hair_instance {
     struct hair_gl_profiler profiler;
     struct hair_gl_owner memory; // memory of buffers and textures by category
     struct hair_frame_requests requests[HAIR_GL_FRAMES]; // per frame of the ledger
+    struct hair_budget_part budget; // of the budget of the context
     bool is_listed; // true while a list that has the instance is checked
 };
 
@@ -167,10 +170,13 @@ hair_result hair_check_position_buffer(const hair_context* context, const char* 
 // A view of the application, and the structs that it points to, checked and copied.
 struct hair_view_copy {
     hair_view view;
+    bool has_lod; // true if the application has set a hair_lod
     hair_lod lod;
     hair_light light[HAIR_LIGHTS];
 };
 hair_result hair_copy_view(const hair_instance* hair, const hair_view* view, struct hair_view_copy* out);
+// Reduce the level of detail of a view by the budget of the context.
+void hair_reduce_view(const hair_instance* hair, struct hair_view_copy* copy);
 // Make the plan of a view, which must be validated. Defined in draw.c.
 void hair_make_plan(const hair_instance* hair, const hair_view* view, struct hair_draw_plan* out);
 
@@ -179,6 +185,11 @@ hair_result hair_check_view_textures(const hair_instance* hair, const hair_view*
 
 // Enter the context for work that the ledger records.
 void hair_enter(hair_instance* hair);
+// Enter the context for work that the ledger records, and that counts towards the budget of the
+// context. OpenGL must be current.
+void hair_enter_frame(hair_instance* hair);
+// Leave the context after hair_enter_frame(). Return like hair_leave().
+hair_result hair_leave_frame(hair_context* context, hair_result result);
 // Enter the context for work of an instance that the ledger does not record. Memory is recorded.
 void hair_enter_unprofiled(hair_instance* hair);
 // Return the requests of the current frame.

@@ -71,6 +71,7 @@ static void end(hair_context* context)
 {
     while (context->members) empty_member(context, context->members);
     hair_sdf_pool_free(&context->sdf_pool);
+    hair_gl_frame_timer_free(&context->gl, &context->budget.timer);
     hair_gl_destroy(&context->gl);
     context->is_dead = true;
 }
@@ -162,6 +163,16 @@ hair_result hair_set_memory_limit(hair_context* context, uint64_t bytes)
 {
     HAIR_TRY(hair_check_context(context));
     hair_gl_memory_set_limit(&context->gl, bytes);
+    return HAIR_OK;
+}
+
+hair_result hair_set_budget(hair_context* context, float ms)
+{
+    HAIR_TRY(hair_check_context(context));
+    if (!(ms >= 0 && ms <= 1000)) // NaN fails.
+        return hair_fail(&context->host, HAIR_ERROR_ARGUMENT, "hair_set_budget: ms is %g, not in [0, 1000]",
+                         (double)ms);
+    hair_budget_start(&context->budget, ms);
     return HAIR_OK;
 }
 

@@ -102,6 +102,21 @@ static hair_result draw_surroundings(hair_instance* hair, const hair_view* view)
     return view->pass == HAIR_PASS_COLLIDERS ? draw_colliders(hair, view) : draw_air(hair, view);
 }
 
+// Note how large hair is in a view, and what the view would need to give up nothing.
+static void note_size(hair_instance* hair, const struct hair_view_copy* copy)
+{
+    const hair_view* view = &copy->view;
+    struct hair_budget* budget = &hair->context->budget;
+    hair->renderer.sample_divisor = budget->ms > 0 ? budget->sample_divisor : 1;
+    if (!budget->ms) return;
+    budget->has_drawn = true;
+    if (view->pass != HAIR_PASS_COLOR && view->pass != HAIR_PASS_MOTION) return;
+    const struct hair_pose* head = &hair->sim.head_at_last_step;
+    float scale = hair_draw_pixels_per_metre(&hair->renderer, head, view);
+    hair->budget.pixels = fmaxf(hair->budget.pixels, 2 * hair->renderer.reach.w * scale);
+    if (!copy->has_lod) hair_budget_note(budget, hair_draw_full_importance(&hair->renderer, scale));
+}
+
 // Do everything before the pass that draws, with the context entered.
 static hair_result prepare_draw(hair_instance* hair, struct hair_draw_plan* plan)
 {
@@ -127,6 +142,8 @@ static hair_result check_view(hair_instance* hair, const hair_view* view, struct
 {
     HAIR_TRY(hair_copy_view(hair, view, own));
     HAIR_TRY(hair_check_current(hair->context));
+    hair_budget_update(&hair->context->gl, &hair->context->budget);
+    hair_reduce_view(hair, own);
     hair_result result = hair_check_view_textures(hair, &own->view);
     if (!result) result = check_framebuffer(hair);
     return result ? hair_check_lost(hair->context, result) : HAIR_OK;
@@ -140,7 +157,8 @@ hair_result hair_draw(hair_instance* hair, const hair_view* view)
     HAIR_TRY(check_view(hair, view, &own));
     hair_make_plan(hair, &own.view, &plan);
     if (!is_to_be_drawn(hair, &plan)) return HAIR_OK;
-    hair_enter(hair);
+    note_size(hair, &own);
+    hair_enter_frame(hair);
     hair_result result;
     if (is_of_surroundings(&own.view)) {
         hair_draw_free_unused(&hair->renderer, hair->profiler.number);
@@ -149,7 +167,7 @@ hair_result hair_draw(hair_instance* hair, const hair_view* view)
         result = prepare_draw(hair, &plan);
         if (!result) hair_draw_finish(&hair->renderer, &plan);
     }
-    result = hair_leave(hair->context, result);
+    result = hair_leave_frame(hair->context, result);
     if (!result) hair_sim_set_unseen_time(&hair->sim, 0);
     return result;
 }
@@ -199,24 +217,26 @@ static void draw_in_turn(struct hair_gl* gl, struct draw_batch* batch, const hai
 }
 
 // Draw a batch. Return the first failure.
-static hair_result draw_all(struct draw_batch* batch, const hair_view* view)
+static hair_result draw_all(struct draw_batch* batch, const struct hair_view_copy* copy)
 {
+    const hair_view* view = &copy->view;
     hair_context* context = batch->hair[0]->context;
     struct hair_gl* gl = &context->gl;
     hair_result first = HAIR_OK;
     for (uint32_t i = 0; i < batch->count; ++i) {
         hair_make_plan(batch->hair[i], view, &batch->plan[batch->drawn]);
-        if (is_to_be_drawn(batch->hair[i], &batch->plan[batch->drawn]))
-            batch->of[batch->drawn++] = batch->hair[i];
+        if (!is_to_be_drawn(batch->hair[i], &batch->plan[batch->drawn])) continue;
+        note_size(batch->hair[i], copy);
+        batch->of[batch->drawn++] = batch->hair[i];
     }
     if (!batch->drawn) return HAIR_OK;
-    hair_enter(batch->of[0]);
+    hair_enter_frame(batch->of[0]);
     bool has_strands = !is_of_surroundings(view) && view->pass != HAIR_PASS_GUIDES;
     if (has_strands && batch->drawn > 1 && hair_gl_begin_recording(gl, batch->drawn))
         draw_recorded(gl, batch);
     else
         draw_in_turn(gl, batch, view);
-    hair_result lost = hair_leave(context, HAIR_OK);
+    hair_result lost = hair_leave_frame(context, HAIR_OK);
     for (uint32_t i = 0; i < batch->drawn; ++i) {
         if (!first) first = batch->result[i];
         if (!lost && !batch->result[i]) hair_sim_set_unseen_time(&batch->of[i]->sim, 0);
@@ -238,7 +258,7 @@ hair_result hair_draw_list(hair_instance* const* list, uint32_t count, const hai
     for (uint32_t i = 0; i < count && first != HAIR_ERROR_CONTEXT_LOST; i += max) {
         struct draw_batch batch = {
             .hair = list + i, .count = count - i < max ? count - i : max, .plan = plans};
-        hair_result result = draw_all(&batch, &own.view);
+        hair_result result = draw_all(&batch, &own);
         if (!first || result == HAIR_ERROR_CONTEXT_LOST) first = result;
     }
     hair_free(host, plans);

@@ -25,6 +25,21 @@ void hair_enter_unprofiled(hair_instance* hair)
     hair_gl_enter_for(&hair->context->gl, &hair->memory, NULL);
 }
 
+void hair_enter_frame(hair_instance* hair)
+{
+    hair_context* context = hair->context;
+    hair_enter(hair);
+    if (!context->budget.ms) return;
+    hair_budget_update(&context->gl, &context->budget);
+    hair_gl_frame_timer_begin(&context->gl, &context->budget.timer);
+}
+
+hair_result hair_leave_frame(hair_context* context, hair_result result)
+{
+    hair_gl_frame_timer_end(&context->gl, &context->budget.timer);
+    return hair_leave(context, result);
+}
+
 struct hair_frame_requests* hair_current_requests(hair_instance* hair)
 {
     return &hair->requests[hair->profiler.number % HAIR_GL_FRAMES];
@@ -155,6 +170,17 @@ static hair_report_row report_row_of(const hair_instance* hair, const struct hai
     return row;
 }
 
+static void write_budget(const hair_instance* hair, hair_report_info* out)
+{
+    const struct hair_budget* budget = &hair->context->budget;
+    out->budget_substep_rate = out->budget_samples = 1;
+    if (!budget->ms) return;
+    out->budget_used = (float)budget->frame_ms;
+    out->budget_importance = budget->importance;
+    out->budget_substep_rate = hair->sim.rate_factor;
+    out->budget_samples = 1 / (float)budget->sample_divisor;
+}
+
 hair_result hair_report(hair_instance* hair, bool waits, hair_report_info* info, hair_report_row* rows,
                         size_t stride, uint32_t capacity, uint32_t* count)
 {
@@ -175,6 +201,7 @@ hair_result hair_report(hair_instance* hair, bool waits, hair_report_info* info,
     HAIR_TRY(hair_check_lost(hair->context, HAIR_OK));
     *count = 0;
     own.compiled_programs = hair->context->gl.compiled;
+    write_budget(hair, &own);
     if (!frame) return HAIR_COPY_OUT(host, hair_report_info, &own, info);
     own.frame = frame->number;
     own.age = hair->profiler.number - frame->number;

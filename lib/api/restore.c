@@ -218,6 +218,7 @@ hair_result hair_context_restore(hair_context* context)
         result = make_all_again(context, &lost);
         if (!result) {
             hair_fastest_find(&context->gl, &context->fastest);
+            hair_gl_frame_timer_forget(&context->budget.timer);
             free_lost(context, &lost);
         }
     }

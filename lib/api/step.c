@@ -59,6 +59,23 @@ static void undo_step(hair_instance* hair, const struct undo* was)
     hair_sim_set_unseen_time(&hair->sim, was->unseen);
 }
 
+// Begin the next frame of the budget if this instance was stepped in the current one, and views
+// have shown hair since. Choose the substep rate of the instance.
+static void follow_budget(hair_instance* hair)
+{
+    struct hair_budget* budget = &hair->context->budget;
+    struct hair_budget_part* part = &hair->budget;
+    if (!budget->ms) {
+        hair_sim_scale_substep_rate(&hair->sim, 1);
+        return;
+    }
+    if (part->stepped == budget->timer.number && budget->has_drawn) hair_budget_next_frame(budget);
+    if (part->stepped == budget->timer.number) return;
+    float rate = hair_budget_find_rate(budget, part->pixels, hair->sim.rate_factor);
+    hair_sim_scale_substep_rate(&hair->sim, rate);
+    *part = (struct hair_budget_part){.stepped = budget->timer.number};
+}
+
 // Step an instance with the context entered.
 static hair_result step(hair_instance* hair, double time)
 {
@@ -79,6 +96,7 @@ hair_result hair_step(hair_instance* hair, float dt)
     HAIR_TRY(hair_check_instance(hair));
     hair_context* context = hair->context;
     HAIR_TRY(check_dt(hair, dt));
+    follow_budget(hair);
     if (dt == 0) return HAIR_OK;
     double time = bound_time(hair, (double)dt);
     if (context->gl.is_lost) return hair_check_current(context); // Sleeping hair needs no OpenGL.
@@ -88,8 +106,8 @@ hair_result hair_step(hair_instance* hair, float dt)
     hair_result result = hair_check_current(context);
     if (!result) result = check_feedback(hair);
     if (!result) {
-        hair_enter(hair);
-        result = hair_leave(context, step(hair, time));
+        hair_enter_frame(hair);
+        result = hair_leave_frame(context, step(hair, time));
     }
     if (result) undo_step(hair, &was);
     return result;
@@ -143,7 +161,7 @@ static hair_result step_all(hair_context* context, struct step_batch* batch)
     if (!count) return HAIR_OK;
     hair_result first = hair_check_current(context);
     if (first) return first;
-    hair_enter(batch->hair[0]);
+    hair_enter_frame(batch->hair[0]);
     bool records = count > 1 && hair_gl_begin_recording(gl, count);
     for (uint32_t i = 0; i < count; ++i) {
         hair_instance* hair = batch->hair[i];
@@ -153,7 +171,7 @@ static hair_result step_all(hair_context* context, struct step_batch* batch)
         if (!first) first = result;
     }
     if (records) hair_gl_end_recording(gl);
-    return hair_leave(context, first);
+    return hair_leave_frame(context, first);
 }
 
 // Pass the time of an instance that is asleep. Return false if the instance is awake.
@@ -172,6 +190,7 @@ hair_result hair_step_list(hair_instance* const* list, uint32_t count, float dt)
     if (!count) return HAIR_OK;
     hair_context* context = list[0]->context;
     HAIR_TRY(check_dt(list[0], dt));
+    for (uint32_t i = 0; i < count; ++i) follow_budget(list[i]);
     if (dt == 0) return HAIR_OK;
     if (context->gl.is_lost) return hair_check_current(context);
     struct step_batch batch = {.count = 0};

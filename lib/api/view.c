@@ -29,7 +29,10 @@ hair_result hair_precompile(hair_instance* hair, const hair_view* view, bool* re
     if (!ready) return HAIR_ERROR_ARGUMENT;
     struct hair_gl* gl = &hair->context->gl;
     struct hair_view_copy own;
-    if (view) HAIR_TRY(hair_copy_view(hair, view, &own));
+    if (view) {
+        HAIR_TRY(hair_copy_view(hair, view, &own));
+        hair_reduce_view(hair, &own);
+    }
     HAIR_TRY(hair_check_current(hair->context));
     struct hair_draw_plan plan;
     if (view) hair_make_plan(hair, &own.view, &plan);

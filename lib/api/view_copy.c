@@ -112,6 +112,7 @@ hair_result hair_copy_view(const hair_instance* hair, const hair_view* view, str
     const hair_host* host = &hair->context->host;
     hair_view* own = &out->view;
     HAIR_TRY(HAIR_COPY_IN(host, hair_view, view, own));
+    out->has_lod = own->lod != NULL;
     if (own->lod) {
         HAIR_TRY(HAIR_COPY_IN(host, hair_lod, own->lod, &out->lod));
         own->lod = &out->lod;
@@ -121,4 +122,24 @@ hair_result hair_copy_view(const hair_instance* hair, const hair_view* view, str
                          hair->label);
     HAIR_TRY(copy_lights(hair, own, out->light));
     return check_sky(hair, own->sky);
+}
+
+void hair_reduce_view(const hair_instance* hair, struct hair_view_copy* copy)
+{
+    const struct hair_budget* budget = &hair->context->budget;
+    hair_view* view = &copy->view;
+    if (!budget->ms || view->pass == HAIR_PASS_GUIDES || view->pass == HAIR_PASS_COLLIDERS ||
+        view->pass == HAIR_PASS_WIND)
+        return;
+    view->lod = &copy->lod;
+    if (!copy->has_lod) {
+        copy->lod = hair_lod_default();
+        copy->lod.importance = budget->importance;
+        return;
+    }
+    float factor = fminf(budget->importance, 1);
+    copy->lod.importance *= factor;
+    if (copy->lod.per_patch) return;
+    copy->lod.strand_fraction *= fmaxf(factor, copy->lod.min_strand_fraction);
+    copy->lod.segment_fraction *= factor;
 }

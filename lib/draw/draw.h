@@ -61,6 +61,9 @@ struct hair_renderer {
     // Maximum pixels per metre of the hair in the view, for level of detail. 0 disables per-patch
     // level of detail.
     float pixels_per_metre;
+    // Ratio of the samples of the framebuffer to those that compute rasterisation finds. 0 or 1
+    // finds all.
+    uint32_t sample_divisor;
     struct hair_extent extent;
     struct hair_strand_list strand_list;
     struct hair_sorted_segments sorted_segments;
@@ -146,6 +149,12 @@ hair_result hair_draw_precompile(struct hair_renderer* renderer, struct hair_dra
 // show none where it covers one pixel, and then need no collision. Defined in lod.c.
 void hair_draw_select_lod(struct hair_renderer* renderer, const struct hair_pose* head,
                           const struct hair_draw_plan* plan);
+// Return the pixels per metre at the point of the hair's bounding sphere that is nearest to the
+// eye. With an orthographic projection the scale is constant.
+float hair_draw_pixels_per_metre(const struct hair_renderer* renderer, const struct hair_pose* head,
+                                 const hair_view* view);
+// Return the importance with which a default level of detail draws everything at this scale.
+float hair_draw_full_importance(const struct hair_renderer* renderer, float pixels_per_metre);
 // Compute the maximum extent of the hair. Defined in cull.c.
 void hair_draw_find_extent(struct hair_renderer* renderer, const struct hair_groom* groom);
 // Return whether hair with attached roots cannot be inside `view`, which must be validated.

@@ -50,10 +50,8 @@ static float find_scale(const struct hair_renderer* renderer, const float projec
 // Typical displacement of followers pushed out of colliders, in metres.
 #define PUSH_OUT_DISTANCE 0.005f
 
-// Return the pixels per metre at the point of the hair's bounding sphere that is nearest to the
-// eye. With an orthographic projection the scale is constant.
-static float pixels_of(const struct hair_renderer* renderer, const struct hair_pose* head,
-                       const hair_view* view)
+float hair_draw_pixels_per_metre(const struct hair_renderer* renderer, const struct hair_pose* head,
+                                 const hair_view* view)
 {
     const hair_vec3 middle =
         hair_rotate(head->rotation, hair_v3(renderer->reach.x, renderer->reach.y, renderer->reach.z));
@@ -66,6 +64,15 @@ static float pixels_of(const struct hair_renderer* renderer, const struct hair_p
     return find_scale(renderer, view->projection) / fmaxf(w, 1e-6f);
 }
 
+float hair_draw_full_importance(const struct hair_renderer* renderer, float pixels_per_metre)
+{
+    const hair_lod usual = hair_lod_default();
+    const hair_look* look = &renderer->geometry->look;
+    float width = 2 * look->strand.radius * pixels_per_metre;
+    float segment = renderer->extent.length / (float)look->strand.segments * pixels_per_metre;
+    return fmaxf(usual.strand_pixels / fmaxf(width, 1e-6f), usual.segment_pixels / fmaxf(segment, 1e-6f));
+}
+
 void hair_draw_select_lod(struct hair_renderer* renderer, const struct hair_pose* head,
                           const struct hair_draw_plan* plan)
 {
@@ -73,7 +80,8 @@ void hair_draw_select_lod(struct hair_renderer* renderer, const struct hair_pose
     renderer->pixels_per_metre = 0;
     renderer->geometry->push_out_weight = 1;
     if (!lod || !lod->per_patch || plan->vertices == HAIR_VERTICES_CACHED) return;
-    renderer->pixels_per_metre = fmaxf(lod->importance * pixels_of(renderer, head, plan->view), 1e-6f);
+    renderer->pixels_per_metre =
+        fmaxf(lod->importance * hair_draw_pixels_per_metre(renderer, head, plan->view), 1e-6f);
     renderer->geometry->push_out_weight =
         fminf(fmaxf(PUSH_OUT_DISTANCE * renderer->pixels_per_metre - 1, 0), 1);
 }

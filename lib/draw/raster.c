@@ -8,13 +8,14 @@
 #define MANY_SEGMENTS 1000000u // Segments that keep a GPU busy with two threads each.
 #define BESIDE 2.0f // Pixels of margin around those that hair covers.
 
-// Find the positions of the samples in a pixel.
-static void find_samples(struct hair_gl* gl, struct hair_raster_params* out)
+// Find the positions of the samples in a pixel, or of one in `divisor` samples.
+static void find_samples(struct hair_gl* gl, uint32_t divisor, struct hair_raster_params* out)
 {
     GLint samples = 0;
     GLfloat at[2] = {0.5f, 0.5f};
     gl->GetIntegerv(GL_SAMPLES, &samples);
     out->samples = samples > 1 && gl->IsEnabled(GL_MULTISAMPLE) ? (uint32_t)samples : 1;
+    if (divisor > 1) out->samples = out->samples > divisor ? out->samples / divisor : 1;
     for (uint32_t i = 0; i < out->samples && i < HAIR_RASTER_SAMPLES; ++i) {
         if (out->samples > 1) gl->GetMultisamplefv(GL_SAMPLE_POSITION, i, at);
         memcpy((float*)out->at + 2 * i, at, sizeof at);
@@ -140,7 +141,7 @@ bool hair_draw_find_raster(const struct hair_renderer* renderer, const struct ha
     out->tests = plan->depth_test.tests;
     out->split = split_segments(count_segments(renderer));
     out->fraction_bits = find_fraction_bits(hair_geometry_count_vertices(renderer->geometry));
-    find_samples(gl, out);
+    find_samples(gl, renderer->sample_divisor, out);
     return true;
 }
 

@@ -91,12 +91,10 @@ static bool read_spans(struct hair_gl* gl, const struct hair_gl_frame* frame, in
 bool hair_gl_profiler_read(struct hair_gl* gl, const struct hair_gl_frame* frame, int waits,
                            float ms[HAIR_GL_CATEGORIES])
 {
-    GLint buffer = 0; // An application's query buffer would receive the results, as in pass.c.
     memset(ms, 0, HAIR_GL_CATEGORIES * sizeof *ms);
     if (!frame->spans) return true;
-    gl->GetIntegerv(GL_QUERY_BUFFER_BINDING, &buffer);
-    if (buffer) gl->BindBuffer(GL_QUERY_BUFFER, 0);
-    int done = read_spans(gl, frame, waits, ms);
-    if (buffer) gl->BindBuffer(GL_QUERY_BUFFER, (GLuint)buffer);
+    GLint buffer = hair_gl_begin_query_reads(gl);
+    bool done = read_spans(gl, frame, waits, ms);
+    hair_gl_end_query_reads(gl, buffer);
     return done;
 }

@@ -296,6 +296,11 @@ void hair_gl_leave(struct hair_gl* gl);
 // Unbind everything that the library may delete, before it deletes it within a [GL] call.
 void hair_gl_unbind(struct hair_gl* gl);
 
+// Unbind the query buffer of the application, which would receive the results of queries. Return
+// its name for hair_gl_end_query_reads().
+GLint hair_gl_begin_query_reads(struct hair_gl* gl);
+void hair_gl_end_query_reads(struct hair_gl* gl, GLint buffer);
+
 // Create a framebuffer without attachments. Transform feedback without rasterisation needs one,
 // because every draw fails without a framebuffer.
 GLuint hair_gl_blank_framebuffer(struct hair_gl* gl);

@@ -257,10 +257,8 @@ static void read_timer(struct hair_gl* gl, struct hair_gl_timer* timer)
 float hair_gl_pass_ms(struct hair_gl* gl, struct hair_gl_program* of)
 {
     if (!of->timer.query[0][0]) return 0;
-    GLint buffer = 0; // A query buffer that the application has bound would receive the results.
-    gl->GetIntegerv(GL_QUERY_BUFFER_BINDING, &buffer);
-    if (buffer) gl->BindBuffer(GL_QUERY_BUFFER, 0);
+    GLint buffer = hair_gl_begin_query_reads(gl);
     read_timer(gl, &of->timer);
-    if (buffer) gl->BindBuffer(GL_QUERY_BUFFER, (GLuint)buffer);
+    hair_gl_end_query_reads(gl, buffer);
     return of->timer.ms;
 }

@@ -180,6 +180,19 @@ void hair_gl_leave(struct hair_gl* gl)
     restore_feedback(gl);
 }
 
+GLint hair_gl_begin_query_reads(struct hair_gl* gl)
+{
+    GLint buffer = 0;
+    gl->GetIntegerv(GL_QUERY_BUFFER_BINDING, &buffer);
+    if (buffer) gl->BindBuffer(GL_QUERY_BUFFER, 0);
+    return buffer;
+}
+
+void hair_gl_end_query_reads(struct hair_gl* gl, GLint buffer)
+{
+    if (buffer) gl->BindBuffer(GL_QUERY_BUFFER, (GLuint)buffer);
+}
+
 GLuint hair_gl_blank_framebuffer(struct hair_gl* gl)
 {
     GLuint framebuffer = 0;

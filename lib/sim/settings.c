@@ -48,6 +48,12 @@ void hair_sim_set_unseen_time(struct hair_sim* sim, double seconds)
     sim->unseen = fmin(seconds, 1);
 }
 
+void hair_sim_scale_substep_rate(struct hair_sim* sim, float factor)
+{
+    HAIR_ASSERT(0 < factor && factor <= 1);
+    sim->rate_factor = factor;
+}
+
 bool hair_sim_has_fixed_roots(const struct hair_sim* sim)
 {
     return (sim->physics.root != HAIR_ROOT_FREE || !sim->rods) && !hair_scalp_motion_is_on(sim) &&

@@ -109,6 +109,7 @@ struct hair_sim {
     double next_substep; // Length of the current substep, s. 0 if unknown, as after loading.
     // Multiple of the solver's own substep length. 0 until rods are first made.
     uint32_t substep_scale;
+    float rate_factor; // Factor of hair_physics.substep_rate, a power of two. At most 1.
     double unseen; // Time since a view last showed any of this hair, s.
     uint32_t guides, guide_vertices, smooth_vertices;
     uint32_t max_vertices; // Maximum number of vertices of a guide.
@@ -203,6 +204,8 @@ bool hair_sim_has_new_colliders(const struct hair_sim* sim);
 // Set the time since a view last showed the hair, s. At most 1 s counts. Hair that no view shows
 // may have longer substeps.
 void hair_sim_set_unseen_time(struct hair_sim* sim, double seconds);
+// Multiply hair_physics.substep_rate by a factor of at most 1.
+void hair_sim_scale_substep_rate(struct hair_sim* sim, float factor);
 // Return whether no strand leaves the reach of its patch, because the scalp holds all roots where
 // the groom has them.
 bool hair_sim_has_fixed_roots(const struct hair_sim* sim);

@@ -226,6 +226,7 @@ static hair_result step(struct run* run)
 {
     hair_context* context = run->scene.test->context;
     hair_test_ok(run->scene.test, hair_set_memory_limit(context, any(run, 6) ? 0 : 1));
+    if (!any(run, 20)) hair_test_ok(run->scene.test, hair_set_budget(context, any(run, 2) ? 0.01f : 0));
     hair_result result =
         hair_step(run->scene.hair, any(run, 4) ? 0.001f * (float)any(run, 30) : any_float(run));
     hair_test_ok(run->scene.test, hair_set_memory_limit(context, 0));

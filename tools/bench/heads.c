@@ -12,13 +12,15 @@
 #define NEAR_HEADS 12
 #define MAX_RUNS 31
 #define WARM_FRAMES 20
+#define SETTLE_FRAMES 200 // Frames in which a budget finds its level of detail.
 #define WIDTH 1920
 #define HEIGHT 1080
 #define GUIDES 200
 #define FOLLOWERS 10000
 
-static const char* const columns[] = {"case",        "method", "heads", "ms",   "ms_cpu",
-                                      "us_cpu_head", "passes", "bytes", "runs", NULL};
+static const char* const columns[] = {"case",        "method", "heads", "ms",      "ms_cpu",
+                                      "us_cpu_head", "passes", "bytes", "ms_used", "ms_used_max",
+                                      "importance",  "runs",   NULL};
 
 static const struct heads_case {
     const char* name;
@@ -31,10 +33,17 @@ static const struct heads_case {
              {"88 far", 0, MAX_HEADS - NEAR_HEADS},
              {"100 mixed", NEAR_HEADS, MAX_HEADS - NEAR_HEADS}};
 
+static const struct heads_method {
+    const char* name;
+    bool by_list;
+    float budget; // ms. 0 is none.
+} methods[] = {
+    {"one by one", false, 0}, {"list", true, 0}, {"list in 10 ms", true, 10}, {"list in 5 ms", true, 5}};
+
 struct heads {
     struct bench* bench;
     struct heads_case scene;
-    bool by_list;
+    struct heads_method method;
     hair_groom* groom;
     hair_instance* hair[MAX_HEADS];
     GLuint frame, color, depth;
@@ -64,6 +73,7 @@ static hair_result make_groom(struct bench* bench, hair_groom** out)
 static void die(struct heads* heads)
 {
     for (uint32_t i = 0; i < count_heads(heads); ++i) hair_destroy(heads->hair[i]);
+    hair_set_budget(heads->bench->context, 0);
     hair_groom_destroy(heads->groom);
     glDeleteFramebuffers(1, &heads->frame);
     glDeleteRenderbuffers(1, &heads->color);
@@ -148,7 +158,7 @@ static hair_result step_and_draw(struct heads* heads, const hair_view* view)
 {
     uint32_t count = count_heads(heads);
     hair_result result = HAIR_OK;
-    if (heads->by_list) {
+    if (heads->method.by_list) {
         result = hair_step_list(heads->hair, count, 1.0f / 60);
         return result ? result : hair_draw_list(heads->hair, count, view);
     }
@@ -181,13 +191,32 @@ static hair_result run_frame(struct heads* heads, double* ms_cpu)
     return result || bench_was_interrupted() ? HAIR_ERROR_ARGUMENT : HAIR_OK;
 }
 
+// Return the GPU time of the newest frame that a budget has measured, ms.
+static double read_used(const struct heads* heads, hair_result* result)
+{
+    hair_report_info info = hair_report_info_default();
+    uint32_t count = 0;
+    if (!*result) *result = hair_report(heads->hair[0], false, &info, NULL, 0, 0, &count);
+    return (double)info.budget_used;
+}
+
+static void set_used(json_t* row, double* used, uint32_t runs, const hair_report_info* info)
+{
+    double max = 0;
+    for (uint32_t i = 0; i < runs; ++i) max = fmax(max, used[i]);
+    bench_set_number(row, "ms_used", bench_times_of(used, runs).ms);
+    bench_set_number(row, "ms_used_max", max);
+    bench_set_number(row, "importance", (double)info->budget_importance);
+}
+
 // Measure frames with and without waiting for the GPU.
 static bool measure(struct heads* heads, json_t* row)
 {
-    double all[MAX_RUNS], cpu[MAX_RUNS], own = 0;
+    double all[MAX_RUNS], cpu[MAX_RUNS], used[MAX_RUNS], own = 0;
     uint32_t runs = 0, max = heads->bench->options.quick ? 3 : MAX_RUNS;
     hair_result result = live(heads);
-    for (uint32_t i = 0; i < WARM_FRAMES && !result; ++i) {
+    if (!result) result = hair_set_budget(heads->bench->context, heads->method.budget);
+    for (uint32_t i = 0; i < (heads->method.budget > 0 ? SETTLE_FRAMES : WARM_FRAMES) && !result; ++i) {
         result = run_frame(heads, &own);
         glFinish();
     }
@@ -197,6 +226,7 @@ static bool measure(struct heads* heads, json_t* row)
         result = run_frame(heads, &cpu[runs]);
         glFinish();
         all[runs] = hair_now() - begin;
+        used[runs] = read_used(heads, &result);
     }
     hair_report_info info = hair_report_info_default();
     hair_report_row works[64];
@@ -213,18 +243,20 @@ static bool measure(struct heads* heads, json_t* row)
     bench_set_count(row, "passes", ran);
     bench_set_count(row, "bytes", memory.bytes);
     bench_set_count(row, "runs", runs);
+    if (heads->method.budget > 0) set_used(row, used, runs, &info);
     return true;
 }
 
-static const char* const methods[] = {"one by one", "list"};
-
 static void run(struct bench* bench)
 {
-    for (size_t i = 0; i < 2 * sizeof cases / sizeof *cases; ++i) {
-        struct heads heads = {.bench = bench, .scene = cases[i / 2], .by_list = i % 2};
-        const char *name = heads.scene.name, *method = methods[i % 2];
+    const size_t count = sizeof methods / sizeof *methods;
+    for (size_t i = 0; i < count * sizeof cases / sizeof *cases; ++i) {
+        struct heads heads = {.bench = bench, .scene = cases[i / count], .method = methods[i % count]};
+        const char *name = heads.scene.name, *method = heads.method.name;
+        bool is_single = count_heads(&heads) == 1;
         // A software rasteriser would take minutes for a crowd.
-        if ((bench->options.quick || bench->software) && count_heads(&heads) > 1) continue;
+        if ((bench->options.quick || bench->software) && !is_single) continue;
+        if (is_single && heads.method.budget > 0) continue;
         if (!bench_begin(bench, name, method)) continue;
         json_t* row = bench_rows_add(&bench->rows);
         bench_set_text(row, "case", name);

@@ -80,6 +80,10 @@ class Context:
     def __exit__(self, *_):
         self.close()
 
+    def set_budget(self, ms):
+        """Limit the GPU time of a frame to `ms`. 0 disables the limit. See hair_set_budget()."""
+        call(hair.hair_set_budget, self._c, ms)
+
     @property
     def memory(self):
         """The numbers of hair_memory."""
