@@ -150,7 +150,8 @@ void do_substep(vec3 head_moved)
         if (quiet >= 1.0 || size < last) quiet = 0.0;
         rounds_spent = LOOPS_OF_ERROR;
     }
-    while (size < 1.0 && !may_split(size)) size *= 2.0;
+    // A loaded state may have a part of no size.
+    while (size < 1.0 && !may_split(size)) size = max(2.0 * size, MIN_PART);
     float begun = size;
     for (; done < 1.0; done += leap_part) {
         if (done > 0.0) {
