@@ -15,6 +15,7 @@ layout(std430, binding = HAIR_BIND_DENSITY_LIGHT) writeonly restrict buffer node
 
 #define SKY_WAYS 6
 #define SKY_STEPS 5     // Each is twice as long as the one before.
+#define MAX_STEPS 1024.0 // Maximum number of cells on the way to a light. Long grids have more.
 #define TURNED 0.785398 // Mean factor of a strand's projected width over all directions.
 
 // Return the number of strands met from a node towards `to`, over at most `reach`, m.
@@ -22,7 +23,7 @@ float met_towards(density_grid grid, vec3 place, vec3 position, vec3 to, float r
 {
     vec3  way   = in_head(to), size = vec3(grid.nodes) - 1.0;
     vec3  left  = mix(place, size - place, greaterThan(way, vec3(0.0))) / max(abs(way), 1e-6);
-    float steps = min(min(left.x, min(left.y, left.z)), reach / grid.cell), sum = 0.0;
+    float steps = min(min(left.x, min(left.y, left.z)), min(reach / grid.cell, MAX_STEPS)), sum = 0.0;
     for (float k = 1.0; k < steps && sum < MAX_MET; k += 1.0) {
         sum += density_at(grid, place + k * way);
         if (is_inside(position + k * grid.cell * to)) sum = MAX_MET;
