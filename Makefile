@@ -340,7 +340,7 @@ glsl: ## Compile every shader offline, without a GPU
 	     '-DHAIR_FIBRES=1 -DHAIR_USER_PIXELS=1 glsl/draw/strand.frag'; } | sort -u | \
 	  xargs -r -L 1 -P $(JOBS) glslc --target-env=opengl4.5 -Werror -fauto-map-locations -DHAIR_LINES_LEVEL=0 -Iglsl -o /dev/null
 
-check: rooms circles commands symbols hardened comments lines functions words arrays mutations amalgam port-version formatted ## Check the order of folders, circles of files, exported names, the one file of all and style
+check: rooms circles commands symbols hardened comments lines functions words arrays loops mutations amalgam port-version formatted ## Check the order of folders, circles of files, exported names, the one file of all and style
 rooms:
 	@awk -v order="$(ROOMS)" ' \
 	  BEGIN { n = split(order, r, " "); for (i = 1; i <= n; i++) rank[r[i]] = i } \
@@ -384,6 +384,8 @@ functions:
 words:
 	@awk -f tools/check/words.awk $(filter lib/% glsl/%,$(TEXTS))
 
+loops:
+	@LC_ALL=C awk -f tools/check/loops.awk tools/check/loops.txt $(filter-out %.h,$(GLSL))
 arrays:
 	@awk -f tools/check/arrays.awk $(wildcard glsl/shared/*.h)
 
@@ -408,4 +410,4 @@ include tools/packaging/windows.mk
 -include $(shell find $(B) -name '*.d' 2>/dev/null)
 .DELETE_ON_ERROR:
 .SECONDARY:
-.PHONY: all hosts view view-film bench report docs libraries tools examples demo gallery test setup run-tests glsl check rooms circles symbols hardened comments lines functions words arrays formatted consumer install-tree format help clean
+.PHONY: all hosts view view-film bench report docs libraries tools examples demo gallery test setup run-tests glsl check rooms circles symbols hardened comments lines functions words arrays loops formatted consumer install-tree format help clean
