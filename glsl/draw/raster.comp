@@ -108,9 +108,10 @@ uint fill_small(uint segment, int own)
     return 0u;
 }
 
-void main()
+// Rasterise the segments of the threads from `base` on.
+void rasterise(uint base)
 {
-    uint own = gl_LocalInvocationID.x, base = hair_group() * HAIR_GROUP_SIZE, pieces = 0u;
+    uint own = gl_LocalInvocationID.x, pieces = 0u;
     if (own == 0u) has_large = false;
     synchronise();
     uint mine = (base + own) / raster.split;
@@ -134,5 +135,16 @@ void main()
         uint        each = pieces_of(w);
         fill(segment, q, w, w.first + int(piece / each), int(piece % each) * HAIR_RASTER_PIECE,
              HAIR_RASTER_PIECE);
+    }
+}
+
+void main()
+{
+    // The CPU dispatches as many groups as it expects strands, and does not know their number.
+    uint threads = command[0].strands * draw.segments * raster.split;
+    uint stride  = hair_group_count() * HAIR_GROUP_SIZE;
+    for (uint base = hair_group() * HAIR_GROUP_SIZE; base < threads; base += stride) {
+        rasterise(base);
+        synchronise();
     }
 }

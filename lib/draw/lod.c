@@ -93,8 +93,7 @@ float hair_draw_cell(const struct hair_renderer* renderer, const hair_view* view
                : renderer->geometry->look.self_shadow.cell;
 }
 
-// Return about which fraction of all strands is drawn.
-static double find_fraction(const struct hair_renderer* renderer, const hair_lod* lod)
+double hair_draw_estimate_fraction(const struct hair_renderer* renderer, const hair_lod* lod)
 {
     float width = 2 * renderer->geometry->look.strand.radius * renderer->pixels_per_metre;
     return (double)(lod->strand_fraction *
@@ -109,7 +108,7 @@ void hair_draw_write_lod(const struct hair_renderer* renderer, const struct hair
     const hair_lod* lod = view->lod;
     out->max_radius = (float)hair_draw_max_radius(renderer, lod);
     if (!lod) return;
-    out->chunks = hair_geometry_chunk_count(renderer->geometry, find_fraction(renderer, lod));
+    out->chunks = hair_geometry_chunk_count(renderer->geometry, hair_draw_estimate_fraction(renderer, lod));
     out->strand_fraction = lod->strand_fraction;
     out->segment_fraction = lod->segment_fraction;
     out->width_power = lod->width_exponent;

@@ -27,6 +27,8 @@ float hair_draw_depth_direction(struct hair_gl* gl);
 
 // Return the cell size of the self-shadow grid for a view, in metres. Defined in lod.c.
 float hair_draw_cell(const struct hair_renderer* renderer, const hair_view* view);
+// Return about which fraction of all strands a level of detail draws.
+double hair_draw_estimate_fraction(const struct hair_renderer* renderer, const hair_lod* lod);
 // Write the parameters of the level of detail. The matrices of the view must be written before.
 void hair_draw_write_lod(const struct hair_renderer* renderer, const struct hair_pose* head,
                          const hair_view* view, struct hair_draw_params* out);

@@ -3,6 +3,7 @@
 #include "lib/draw/draw.h"
 #include "lib/draw/params.h"
 
+#include <math.h>
 #include <string.h>
 
 #define MANY_SEGMENTS 1000000u // Segments that keep a GPU busy with two threads each.
@@ -68,9 +69,12 @@ static void write_pixels(const float viewport[4], const float unit[16], float ma
     memcpy(&out->to_window, matrix, sizeof out->to_window);
 }
 
-static uint64_t count_segments(const struct hair_renderer* renderer)
+// Return about how many segments a view draws, each strand with all of its segments.
+static uint64_t estimate_segments(const struct hair_renderer* renderer, const hair_view* view)
 {
-    return (uint64_t)renderer->geometry->followers * renderer->geometry->look.strand.segments;
+    double fraction = view->lod ? hair_draw_estimate_fraction(renderer, view->lod) : 1;
+    double strands = fmax(ceil(fraction * (double)renderer->geometry->followers), 1);
+    return (uint64_t)strands * renderer->geometry->look.strand.segments;
 }
 
 // Return the threads of a segment. A GPU is busy with many segments, and with the lines of few.
@@ -139,7 +143,6 @@ bool hair_draw_find_raster(const struct hair_renderer* renderer, const struct ha
     out->across = (out->columns + HAIR_RASTER_TILE - 1) / HAIR_RASTER_TILE;
     out->tiles = out->across * ((out->rows + HAIR_RASTER_TILE - 1) / HAIR_RASTER_TILE);
     out->tests = plan->depth_test.tests;
-    out->split = split_segments(count_segments(renderer));
     out->fraction_bits = find_fraction_bits(hair_geometry_count_vertices(renderer->geometry));
     find_samples(gl, renderer->sample_divisor, out);
     return true;
@@ -226,7 +229,8 @@ void hair_draw_rasterise(struct hair_renderer* renderer, struct hair_draw_plan* 
     GLuint buffers[] = {raster->nearest, raster->tile};
     size_t numbers = count_numbers(params, plan->draw);
     HAIR_ASSERT(raster->room >= numbers && raster->tile_room >= params->tiles + HAIR_TILE_FIRST);
-    uint64_t segments = count_segments(renderer);
+    uint64_t segments = estimate_segments(renderer, plan->view);
+    params->split = split_segments(segments);
     hair_gl_bind_texture(gl, HAIR_UNIT_STRAND, renderer->strand_list.strand_texture);
     hair_gl_bind_texture(gl, HAIR_UNIT_TILE, raster->tile_texture);
     if (plan->depth_test.depth) {

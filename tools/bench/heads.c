@@ -114,6 +114,7 @@ static hair_result live(struct heads* heads)
     hair_look look = hair_look_default();
     look.self_shadow.method = HAIR_SELF_SHADOW_STRANDS;
     desc.look = &look;
+    desc.thread_mapping = heads->bench->options.mapping;
     hair_result result = make_groom(heads->bench, &heads->groom);
     for (uint32_t i = 0; i < count_heads(heads) && !result; ++i) {
         place(heads, i, desc.transform);
