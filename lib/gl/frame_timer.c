@@ -22,8 +22,8 @@ void hair_gl_frame_timer_next(struct hair_gl_frame_timer* timer)
 // Create queries for more calls of a frame. Return false if there are none.
 static bool add_queries(struct hair_gl* gl, struct hair_gl_timed_frame* frame)
 {
-    GLuint* first = frame->query[frame->created];
     if (frame->created == HAIR_GL_TIMED_CALLS) return false;
+    GLuint* first = frame->query[frame->created];
     gl->CreateQueries(GL_TIMESTAMP, 2 * HAIR_GL_NEW_TIMED_CALLS, first);
     if (!first[0]) return false;
     frame->created += HAIR_GL_NEW_TIMED_CALLS;
