@@ -92,9 +92,10 @@ void hair_gl_begin(struct hair_gl* gl, hair_gl_pass pass)
 
 void hair_gl_end(struct hair_gl* gl, hair_gl_pass pass)
 {
-    HAIR_ASSERT(hair_gl_find(gl, pass));
     if (hair_gl_is_recording(gl)) return;
-    struct hair_gl_timer* timer = &hair_gl_find(gl, pass)->timer;
+    struct hair_gl_program* own = hair_gl_find(gl, pass);
+    HAIR_ASSERT(own);
+    struct hair_gl_timer* timer = &own->timer;
     hair_gl_profiler_end(gl, pass);
     if (gl->timings) write_time(gl, timer->query[timer->begun % HAIR_GL_TIMER_DEPTH][1]);
     ++timer->begun;
