@@ -27,6 +27,7 @@ void hair_draw_find_extent(struct hair_renderer* renderer, const struct hair_gro
     for (uint32_t i = 0; i < groom->info.patch_count; ++i) {
         extent->reach = fmaxf(extent->reach, groom->patches[i].reach);
         extent->length = fmaxf(extent->length, groom->patches[i].length);
+        extent->importance = fmaxf(extent->importance, groom->patches[i].importance);
     }
 }
 
@@ -115,6 +116,18 @@ bool hair_draw_is_out_of_view(const struct hair_renderer* renderer, const struct
     if (outside & (1u << FAR | 1u << NEAR))
         if (gl->IsEnabled(GL_DEPTH_CLAMP)) outside &= ~(1u << FAR | 1u << NEAR);
     return outside != 0;
+}
+
+double hair_draw_min_w(const struct hair_renderer* renderer, const struct hair_pose* head,
+                       const hair_view* view)
+{
+    double min = INFINITY, reach = hair_reach_beyond(renderer, view->lod);
+    for (int i = 0; i < 8; ++i) {
+        double clip[4];
+        find_corner(view, head, corner_of(&renderer->extent, reach, i), clip);
+        min = fmin(min, clip[3]);
+    }
+    return min;
 }
 
 void hair_draw_find_window(const struct hair_renderer* renderer, const struct hair_pose* head,

@@ -20,6 +20,7 @@ struct hair_extent {
     hair_vec3 lower, upper;
     // Maximum distance of a strand from its root, and length of the longest strand, in metres.
     float reach, length;
+    float importance; // Maximum importance of a patch.
 };
 
 // Resources that only some views need, in the order in which they are made.
@@ -65,6 +66,7 @@ struct hair_renderer {
     // finds all.
     uint32_t sample_divisor;
     struct hair_extent extent;
+    hair_vec3 usual_size; // Size of the box that usually contains the hair, in metres.
     struct hair_strand_list strand_list;
     struct hair_sorted_segments sorted_segments;
     struct hair_raster raster;
@@ -76,10 +78,11 @@ struct hair_renderer {
 };
 
 // Create a renderer of strands and lighting, which must outlive it like `fastest`. `bounds` are the
-// lower and the upper corner of the hair in the head's frame.
+// lower and the upper corner of the hair in the head's frame. `box` usually contains the hair.
 void hair_renderer_create(struct hair_renderer* renderer, struct hair_gl* gl, const struct hair_groom* groom,
-                          const hair_vec3 bounds[2], struct hair_geometry* geometry,
-                          struct hair_lighting* lighting, const struct hair_fastest* fastest);
+                          const hair_vec3 bounds[2], const struct hair_field_box* box,
+                          struct hair_geometry* geometry, struct hair_lighting* lighting,
+                          const struct hair_fastest* fastest);
 void hair_renderer_destroy(struct hair_renderer* renderer);
 // Set whether roots are fixed to the groom, and whether all strands are attached to it. Culling
 // depends on both.

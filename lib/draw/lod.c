@@ -46,6 +46,7 @@ static float find_scale(const struct hair_renderer* renderer, const float projec
     return 0.5f * hypotf(projection[4] * viewport[2], projection[5] * viewport[3]);
 }
 
+#define MARGIN 1.001 // Factor that allows for rounding on the GPU.
 #define CELL 2.0f // Smallest useful cell of the self-shadow grid, in pixels.
 // Typical displacement of followers pushed out of colliders, in metres.
 #define PUSH_OUT_DISTANCE 0.005f
@@ -100,6 +101,24 @@ double hair_draw_estimate_fraction(const struct hair_renderer* renderer, const h
                     (renderer->pixels_per_metre > 0
                          ? fminf(fmaxf(width / lod->strand_pixels, lod->min_strand_fraction), 1)
                          : 1));
+}
+
+uint32_t hair_draw_max_strands(const struct hair_renderer* renderer, const struct hair_pose* head,
+                               const hair_view* view)
+{
+    const struct hair_geometry* geometry = renderer->geometry;
+    const hair_lod* lod = view->lod;
+    double fraction = lod ? (double)lod->strand_fraction : 1;
+    if (lod && lod->per_patch && renderer->has_attached_roots) {
+        double w = fmax(hair_draw_min_w(renderer, head, view), 1e-6);
+        double width =
+            2 * (double)(geometry->look.strand.radius * renderer->extent.importance * lod->importance);
+        double pixels = MARGIN * width * (double)find_scale(renderer, view->projection) / w;
+        fraction *= fmin(fmax(pixels / (double)lod->strand_pixels, (double)lod->min_strand_fraction), 1);
+    }
+    // Each patch rounds up.
+    double strands = ceil(fraction * geometry->followers) + geometry->patches;
+    return strands < geometry->followers ? (uint32_t)strands : geometry->followers;
 }
 
 void hair_draw_write_lod(const struct hair_renderer* renderer, const struct hair_pose* head,

@@ -29,6 +29,9 @@ float hair_draw_depth_direction(struct hair_gl* gl);
 float hair_draw_cell(const struct hair_renderer* renderer, const hair_view* view);
 // Return about which fraction of all strands a level of detail draws.
 double hair_draw_estimate_fraction(const struct hair_renderer* renderer, const hair_lod* lod);
+// Return the maximum number of strands that a view may draw.
+uint32_t hair_draw_max_strands(const struct hair_renderer* renderer, const struct hair_pose* head,
+                               const hair_view* view);
 // Write the parameters of the level of detail. The matrices of the view must be written before.
 void hair_draw_write_lod(const struct hair_renderer* renderer, const struct hair_pose* head,
                          const hair_view* view, struct hair_draw_params* out);
@@ -48,6 +51,9 @@ double hair_draw_edge(float pixels, float jitter);
 double hair_draw_max_radius(const struct hair_renderer* renderer, const hair_lod* lod);
 // Return the maximum radius in metres before the groom and groups widen some strands.
 double hair_draw_max_look_radius(const struct hair_renderer* renderer, const hair_lod* lod);
+// Return the minimum w of clip space at any hair while its roots are attached.
+double hair_draw_min_w(const struct hair_renderer* renderer, const struct hair_pose* head,
+                       const hair_view* view);
 // Shrink `window` to the part that hair can be in while its roots are attached. `window` holds the
 // lower and the upper corner in texture coordinates.
 void hair_draw_find_window(const struct hair_renderer* renderer, const struct hair_pose* head,

@@ -1,5 +1,10 @@
 // view_cache.c - vertices of one view, written or shaded before its pixels are drawn.
 #include "lib/draw/draw.h"
+#include "lib/draw/params.h"
+
+// Buffers are made anew once SPARE_VIEWS views in turn need less than 1 / SHRINKS of the strands.
+#define SHRINKS 3
+#define SPARE_VIEWS 60
 
 static const struct {
     const char* label;
@@ -37,13 +42,28 @@ static hair_result ensure_part(struct hair_renderer* renderer, int part, size_t 
                                 &own->buffer[part], parts[part].format, &own->texture[part]);
 }
 
+// Return the capacity in strands: that of all strands, halved as often as it holds what the view
+// may draw.
+static uint32_t find_room(const struct hair_renderer* renderer, const struct hair_draw_plan* plan)
+{
+    uint32_t room = renderer->geometry->followers;
+    uint32_t max = hair_draw_max_strands(renderer, plan->head, plan->view);
+    while (room > 1 && (room + 1) / 2 >= max) room = (room + 1) / 2;
+    return room;
+}
+
 hair_result hair_draw_ensure_view_cache(struct hair_renderer* renderer, struct hair_draw_plan* plan)
 {
-    struct hair_view_cache* view_cache = &renderer->view_cache;
-    size_t vertices = hair_geometry_count_vertices(renderer->geometry);
+    struct hair_view_cache* own = &renderer->view_cache;
+    uint32_t room = find_room(renderer, plan), segments = renderer->geometry->look.strand.segments;
     hair_result result = HAIR_OK;
-    if (view_cache->vertices != vertices) hair_draw_free_view_cache(renderer);
-    view_cache->vertices = vertices;
+    own->spare = own->room / SHRINKS > room ? own->spare + 1 : 0;
+    if (own->segments != segments || own->room < room || own->spare > SPARE_VIEWS) {
+        hair_draw_free_view_cache(renderer);
+        own->room = room;
+        own->segments = segments;
+    }
+    size_t vertices = (size_t)own->room * (segments + 1);
     for (int i = 0; i < HAIR_VIEW_CACHE_PARTS && !result; ++i)
         result = ensure_part(renderer, i, size_of_part(plan, i, vertices));
     if (result) hair_draw_free_view_cache(renderer);
@@ -52,8 +72,9 @@ hair_result hair_draw_ensure_view_cache(struct hair_renderer* renderer, struct h
 
 void hair_draw_free_view_cache(struct hair_renderer* renderer)
 {
+    struct hair_view_cache* own = &renderer->view_cache;
     for (int i = 0; i < HAIR_VIEW_CACHE_PARTS; ++i) free_part(renderer, i);
-    renderer->view_cache.vertices = 0;
+    own->room = own->spare = own->segments = 0;
 }
 
 // Write and shade the vertices of the listed strands, and bind them in place of the vertex cache.

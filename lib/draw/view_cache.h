@@ -13,7 +13,9 @@ struct hair_view_cache {
     GLuint buffer[HAIR_VIEW_CACHE_PARTS];
     GLuint texture[HAIR_VIEW_CACHE_PARTS]; // Buffer textures of `buffer`.
     size_t size[HAIR_VIEW_CACHE_PARTS]; // Size of each buffer in bytes.
-    size_t vertices; // Capacity in vertices.
+    uint32_t segments; // Segments of a strand.
+    uint32_t room; // Capacity in strands.
+    uint32_t spare; // Number of views in sequence for which much less would do.
 };
 
 #endif

@@ -20,11 +20,13 @@ static void write_shadow_params(const struct hair_renderer* renderer, const stru
 }
 
 // Return the nodes that the density grid needs for cells of `cell` m. The cells of hair that swings
-// out of the sphere around its rest pose become larger. Hair that may come off gets all nodes.
+// far out of its rest pose become larger. Hair that may come off gets all nodes.
 static uint32_t count_grid_nodes(const struct hair_renderer* renderer, double cell)
 {
-    double across = 2 * (double)renderer->reach.w / cell + 3, nodes = across * across * across;
+    const float* size = &renderer->usual_size.x;
+    double nodes = 1;
     HAIR_ASSERT(cell > 0);
+    for (int i = 0; i < 3; ++i) nodes *= (double)size[i] / cell + 3;
     return renderer->has_attached_roots && nodes < HAIR_DENSITY_NODES ? (uint32_t)nodes : HAIR_DENSITY_NODES;
 }
 

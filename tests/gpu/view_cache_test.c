@@ -1,0 +1,116 @@
+// view_cache_test.c - memory of the vertices of one view, which grows with the strands that the
+// level of detail may draw.
+#include "tests/support/scene.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "lib/api/api.h"
+
+#define SIDE 64
+#define FOLLOWERS 4000
+#define VIEWS 150
+
+static struct hair_test_scene make_scene(struct hair_test* test)
+{
+    struct hair_test_handmade groom = hair_test_handmade_default();
+    hair_look look = hair_look_default();
+    groom.followers = FOLLOWERS;
+    groom.each = 250;
+    look.strand.radius = 2e-4f;
+    look.strand.segments = 8;
+    struct hair_test_scene scene = hair_test_scene_of(test, &groom, &look);
+    scene.view.render_path = HAIR_RENDER_PATH_COMPUTE;
+    hair_test_frame_make(&scene.frame, SIDE, SIDE, GL_RGBA32F, 0);
+    return scene;
+}
+
+static void draw(const struct hair_test_scene* scene)
+{
+    hair_test_frame_clear(&scene->frame);
+    hair_test_ok(scene->test, hair_draw(scene->hair, &scene->view));
+}
+
+// Return the number of strands that the GPU has listed for the last view.
+static uint32_t count_listed(const struct hair_test_scene* scene)
+{
+    struct hair_draw_command command = {0};
+    hair_gl_read(&scene->test->context->gl, scene->hair->renderer.strand_list.command, sizeof command,
+                 &command);
+    return command.strands;
+}
+
+static uint32_t find_room(const struct hair_test_scene* scene)
+{
+    return scene->hair->renderer.view_cache.room;
+}
+
+static void set_away(struct hair_test_scene* scene, float away)
+{
+    hair_test_set_perspective(&scene->view, 3, 1);
+    scene->view.view[14] = -away;
+}
+
+static float any(uint32_t* random, float low, float high)
+{
+    *random = *random * 1664525u + 1013904223u;
+    return low + (high - low) * (float)(*random >> 8) / (1u << 24);
+}
+
+static void views_never_list_more_strands_than_fit(void** state)
+{
+    struct hair_test_scene scene = make_scene(*state);
+    uint32_t random = 1, part = 0, small = 0;
+    for (int i = 0; i < VIEWS; ++i) {
+        hair_lod lod = hair_lod_default();
+        lod.strand_fraction = any(&random, 0, 1) < 0.5f ? 1 : any(&random, 0.1f, 1);
+        lod.importance = powf(10, any(&random, -1, 1));
+        lod.strand_pixels = powf(10, any(&random, -1.5f, 0.5f));
+        lod.min_strand_fraction = any(&random, 0.001f, 0.2f);
+        lod.per_patch = any(&random, 0, 1) < 0.8f;
+        scene.view.lod = &lod;
+        set_away(&scene, powf(10, any(&random, -1, 1.5f)));
+        if (any(&random, 0, 1) < 0.3f)
+            hair_test_set_orthographic(&scene.view, any(&random, 0.1f, 4), 0.01f, 0);
+        hair_draw_free_view_cache(&scene.hair->renderer);
+        hair_test_ok(scene.test, hair_step(scene.hair, 1.0f / 60));
+        draw(&scene);
+        uint32_t room = find_room(&scene);
+        if (!room) continue; // Out of view.
+        assert_true(count_listed(&scene) <= room);
+        part += room < FOLLOWERS;
+        small += room < FOLLOWERS / 8;
+    }
+    assert_true(part > VIEWS / 4); // The bound is of some use.
+    assert_true(small > VIEWS / 10);
+    hair_test_scene_free(&scene);
+}
+
+static void memory_follows_the_distance(void** state)
+{
+    struct hair_test_scene scene = make_scene(*state);
+    hair_lod lod = hair_lod_default();
+    scene.view.lod = &lod;
+    set_away(&scene, 0.3f);
+    draw(&scene);
+    uint64_t near = hair_test_gpu_bytes(scene.test);
+    assert_int_equal(find_room(&scene), FOLLOWERS);
+    set_away(&scene, 10);
+    for (int i = 0; i < 40; ++i) draw(&scene);
+    assert_int_equal(find_room(&scene), FOLLOWERS); // A glance aside makes nothing anew.
+    for (int i = 0; i < 40; ++i) draw(&scene);
+    assert_true(find_room(&scene) <= FOLLOWERS / 8);
+    assert_true(hair_test_gpu_bytes(scene.test) < near - 500000);
+    set_away(&scene, 0.3f);
+    draw(&scene);
+    assert_int_equal(find_room(&scene), FOLLOWERS);
+    hair_test_scene_free(&scene);
+}
+
+int main(void)
+{
+    if (hair_test_skips()) return 0;
+    const struct CMUnitTest tests[] = {HAIR_TEST(views_never_list_more_strands_than_fit),
+                                       HAIR_TEST(memory_follows_the_distance)};
+    return cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);
+}
