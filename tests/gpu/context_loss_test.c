@@ -29,6 +29,8 @@ static void check_lost(struct hair_test_loss* f)
     hair_test_trace_clear();
     lost(hair_step(f->hair, 1.0f / 60));
     lost(hair_draw(f->hair, &view));
+    lost(hair_step_list(&f->hair, 1, 1.0f / 60));
+    lost(hair_draw_list(&f->hair, 1, &view));
     lost(hair_reset(f->hair));
     lost(hair_teleport(f->hair, desc.transform));
     lost(hair_precompile(f->hair, &view, &ready));

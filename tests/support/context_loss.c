@@ -23,7 +23,9 @@ hair_result hair_test_loss_create(struct hair_test_loss* f, int way, bool restor
     desc.label = "fringe";
     shader.glsl = hair_test_loss_glsl;
     HAIR_TRY(hair_context_create(&context, &f->context));
+    f->context->gl.records = true; // llvmpipe does not profit from recording.
     HAIR_TRY(hair_create(f->context, f->groom, &desc, &f->hair));
+    HAIR_TRY(hair_create(f->context, f->groom, &desc, &f->twin));
     return hair_shader_create(f->context, &shader, &f->shader);
 }
 
@@ -43,9 +45,10 @@ void hair_test_loss_start(struct hair_test_loss* f, struct hair_test* test, int 
 void hair_test_loss_destroy(struct hair_test_loss* f)
 {
     hair_destroy(f->hair);
+    hair_destroy(f->twin);
     hair_shader_destroy(f->shader);
     hair_context_destroy(f->context);
-    f->hair = NULL;
+    f->hair = f->twin = NULL;
     f->shader = NULL;
     f->context = NULL;
 }
@@ -88,7 +91,7 @@ hair_result hair_test_loss_draw(struct hair_test_loss* f)
     hair_view view = hair_test_tessellated();
     hair_test_set_orthographic(&view, 4, 0.5f, 0);
     hair_test_frame_clear(&f->frame);
-    HAIR_TRY(hair_draw(f->hair, &view));
+    HAIR_TRY(hair_draw_list((hair_instance*[]){f->hair, f->twin}, 2, &view));
     view.shader = f->shader;
     view.render_path = HAIR_RENDER_PATH_CACHED;
     return hair_draw(f->hair, &view);
@@ -97,7 +100,12 @@ hair_result hair_test_loss_draw(struct hair_test_loss* f)
 hair_result hair_test_loss_frame(struct hair_test_loss* f, int i)
 {
     HAIR_TRY(hair_test_loss_set(f, i));
-    HAIR_TRY(hair_step(f->hair, 1.0f / 60));
+    if (i % 2) {
+        HAIR_TRY(hair_step_list((hair_instance*[]){f->hair, f->twin}, 2, 1.0f / 60));
+    } else {
+        HAIR_TRY(hair_step(f->hair, 1.0f / 60));
+        HAIR_TRY(hair_step(f->twin, 1.0f / 60));
+    }
     return hair_test_loss_draw(f);
 }
 

@@ -17,7 +17,7 @@ struct hair_test_loss {
     hair_egl* egl; // the OpenGL context that is lost
     hair_context* context;
     hair_groom* groom;
-    hair_instance* hair;
+    hair_instance *hair, *twin; // Lists of both step them in two of three frames.
     hair_shader* shader;
     struct hair_test_frame frame;
     uint32_t blocks;
