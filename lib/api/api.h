@@ -64,6 +64,13 @@ struct hair_creation {
     float field_voxel; // m
 };
 
+// Size of the voxels of an instance's field, which is coarser where all views are far away.
+struct hair_field_detail {
+    float voxel; // m, in full detail
+    uint32_t doublings; // number of times that it is doubled
+    uint32_t spare_views; // number of views in sequence that need fewer voxels
+};
+
 struct hair_instance {
     struct hair_context_member member;
     hair_context* context;
@@ -84,6 +91,7 @@ struct hair_instance {
     struct hair_lighting lighting;
     struct hair_renderer renderer;
     struct hair_collider_field field;
+    struct hair_field_detail field_detail;
     struct hair_gl_profiler profiler;
     struct hair_gl_owner memory; // memory of buffers and textures by category
     struct hair_frame_requests requests[HAIR_GL_FRAMES]; // per frame of the ledger
@@ -197,8 +205,12 @@ struct hair_frame_requests* hair_current_requests(hair_instance* hair);
 // End the current frame and begin the next.
 void hair_begin_frame(hair_instance* hair);
 
-// Update the field to the head and colliders of the last step. [GL], with the context entered.
+// Update the field, in full detail, to the head and colliders of the last step. [GL], with the context entered.
 hair_result hair_update_field(hair_instance* hair);
+// Choose the size of voxels for the view that is drawn next, before follower collision is asked for.
+void hair_choose_field_detail(hair_instance* hair);
+// Update the field as hair_update_field() does, but in the detail that was chosen last.
+hair_result hair_update_view_field(hair_instance* hair);
 // Update the field as hair_update_field() does, but for another pose of the head.
 hair_result hair_update_field_at(hair_instance* hair, const struct hair_pose* head);
 

@@ -36,13 +36,14 @@ hair_result hair_update_follower_collision(hair_instance* hair)
 {
     struct hair_geometry* geometry = &hair->geometry;
     const hair_look* look = &geometry->look;
+    hair_choose_field_detail(hair);
     if (hair_geometry_has_follower_collision(geometry)) return HAIR_OK;
     bool is_shown = geometry->push_out_weight > 0;
     bool collides =
         is_shown && look->followers.collision != HAIR_FOLLOWER_COLLISION_NONE && geometry->followers;
     bool blocks = look->self_shadow.method == HAIR_SELF_SHADOW_STRANDS;
     hair_geometry_set_blockers(geometry, NULL);
-    if (collides || blocks) HAIR_TRY(hair_update_field(hair));
+    if (collides || blocks) HAIR_TRY(hair_update_view_field(hair));
     const struct hair_collider_field* field =
         (collides || blocks) && hair_field_is_near(&hair->field) ? &hair->field : NULL;
     if (is_shown) {

@@ -1,6 +1,12 @@
 // field.c - the public call by which the application reads the field of an instance.
 #include "lib/api/api.h"
 
+#include <math.h>
+
+#define MAX_DOUBLINGS 3 // A field of 256 voxels then has 32.
+#define MAX_PIXELS 3 // Maximum size of a doubled voxel.
+#define SPARE_VIEWS 60 // Views in turn that need less before the field becomes coarser.
+
 // Write the transform from the world to the box's [0, 1]^3: p becomes (conj(q) (p - head) - lower)
 // * inverse. It is computed in double, because far from the origin the head's position and its
 // product nearly cancel.
@@ -23,7 +29,41 @@ static void write_transform(const struct hair_field_box* box, const struct hair_
     for (int k = 0; k < 4; ++k) out[4 * k + 3] = k == 3;
 }
 
-hair_result hair_update_field_at(hair_instance* hair, const struct hair_pose* head)
+// Change the number of times that the size of voxels is doubled. What depends on the field is
+// outdated then.
+static void set_doublings(hair_instance* hair, uint32_t doublings)
+{
+    struct hair_field_detail* detail = &hair->field_detail;
+    detail->spare_views = 0;
+    if (doublings == detail->doublings) return;
+    hair_field_set_voxel(&hair->field, hair->groom, ldexpf(detail->voxel, (int)doublings));
+    detail->doublings = doublings;
+    hair_geometry_set_blockers(&hair->geometry, NULL);
+    hair_geometry_invalidate(&hair->geometry);
+}
+
+// Return how often voxels can be doubled in the view that is drawn next. A view so far away that it
+// shows no push-out needs the field only for the light that colliders block.
+static uint32_t find_doublings(const hair_instance* hair)
+{
+    float pixels = hair->renderer.pixels_per_metre * hair->field_detail.voxel;
+    uint32_t doublings = 0;
+    // Motion must not depend on views.
+    if (!(pixels > 0) || hair->geometry.push_out_weight > 0 || hair_wind_coupling_is_on(&hair->sim)) return 0;
+    while (doublings < MAX_DOUBLINGS && 2 * pixels <= MAX_PIXELS) pixels *= 2, ++doublings;
+    return doublings;
+}
+
+void hair_choose_field_detail(hair_instance* hair)
+{
+    struct hair_field_detail* detail = &hair->field_detail;
+    uint32_t wanted = find_doublings(hair);
+    bool is_coarser = wanted > detail->doublings;
+    if (is_coarser && hair->field.distance && ++detail->spare_views <= SPARE_VIEWS) return;
+    set_doublings(hair, wanted);
+}
+
+static hair_result update_at(hair_instance* hair, const struct hair_pose* head)
 {
     const struct hair_collider_list* colliders = hair_sim_colliders(&hair->sim);
     hair_result result = hair_field_update(&hair->field, colliders->collider, colliders->count, head);
@@ -35,9 +75,20 @@ hair_result hair_update_field_at(hair_instance* hair, const struct hair_pose* he
     return result;
 }
 
+hair_result hair_update_field_at(hair_instance* hair, const struct hair_pose* head)
+{
+    set_doublings(hair, 0);
+    return update_at(hair, head);
+}
+
 hair_result hair_update_field(hair_instance* hair)
 {
     return hair_update_field_at(hair, &hair->sim.head_at_last_step);
+}
+
+hair_result hair_update_view_field(hair_instance* hair)
+{
+    return update_at(hair, &hair->sim.head_at_last_step);
 }
 
 hair_result hair_get_field(hair_instance* hair, hair_field_info* out)

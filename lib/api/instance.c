@@ -66,6 +66,7 @@ hair_result hair_instance_create_rooms(hair_instance* hair, const hair_groom* gr
     sim->field = &hair->field;
     find_hair_bounds(hair, groom);
     hair_field_create(&hair->field, sim->sdf_pool, groom, hair->creation.field_voxel);
+    hair->field_detail = (struct hair_field_detail){.voxel = hair->field.box.voxel};
     HAIR_TRY(hair_sim_create(&hair->sim, gl, groom, sim));
     hair->told = hair_rods_report_none().softened;
     hair_tell_softened(hair);

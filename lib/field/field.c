@@ -33,6 +33,12 @@ static void clear(struct hair_collider_field* field)
         .gl = gl, .sdf_pool = field->sdf_pool, .box = field->box, .writes = field->writes + 1};
 }
 
+void hair_field_set_voxel(struct hair_collider_field* field, const struct hair_groom* groom, float voxel)
+{
+    clear(field);
+    field->box = hair_field_box_of(groom, voxel);
+}
+
 void hair_field_destroy(struct hair_collider_field* field)
 {
     if (field->gl) clear(field);

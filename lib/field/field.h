@@ -31,6 +31,8 @@ struct hair_collider_field {
     float* best;
 };
 
+// Free the field of a groom, which gets another size of voxels when it is written next.
+void hair_field_set_voxel(struct hair_collider_field* field, const struct hair_groom* groom, float voxel);
 // Set up the field of a groom, without memory or OpenGL.
 void hair_field_create(struct hair_collider_field* field, struct hair_sdf_pool* pool,
                        const struct hair_groom* groom, float voxel);

@@ -1,5 +1,5 @@
-// view_cache_test.c - memory of the vertices of one view, which grows with the strands that the
-// level of detail may draw.
+// view_memory_test.c - memory that follows the size of hair on the screen: the vertices of a view,
+// and the field of colliders.
 #include "tests/support/scene.h"
 
 #include <math.h>
@@ -107,10 +107,84 @@ static void memory_follows_the_distance(void** state)
     hair_test_scene_free(&scene);
 }
 
+// Let a ball hide half of the hair from the light, and draw it from a distance.
+static void draw_behind_ball(struct hair_test_scene* scene, float away)
+{
+    hair_collider ball = hair_collider_default();
+    ball.size[0] = 0.1f;
+    ball.position[0] = 0.05f, ball.position[1] = 0.1f;
+    hair_test_ok(scene->test, hair_set_colliders(scene->hair, &ball, 1, sizeof ball));
+    hair_test_ok(scene->test, hair_step(scene->hair, 1.0f / 60));
+    set_away(scene, away);
+    draw(scene);
+}
+
+static void read_mean(const struct hair_test_scene* scene, double mean[4])
+{
+    static float pixels[4 * SIDE * SIDE];
+    hair_test_frame_read(&scene->frame, pixels);
+    for (int k = 0; k < 4; ++k) mean[k] = 0;
+    for (int i = 0; i < 4 * SIDE * SIDE; ++i) mean[i % 4] += (double)pixels[i] / (SIDE * SIDE);
+}
+
+static struct hair_test_scene make_lit_scene(struct hair_test* test, const hair_lod* lod)
+{
+    struct hair_test_scene scene = make_scene(test);
+    hair_look look = scene.hair->look;
+    look.self_shadow.method = HAIR_SELF_SHADOW_STRANDS;
+    hair_test_ok(test, hair_set_look(scene.hair, &look));
+    scene.view.lod = lod;
+    return scene;
+}
+
+static void far_field_has_fewer_voxels_and_the_same_light(void** state)
+{
+    hair_lod lod = hair_lod_default();
+    struct hair_test_scene scene = make_lit_scene(*state, &lod);
+    hair_field_info info = hair_field_info_default();
+    double coarse[4], fine[4];
+    draw_behind_ball(&scene, 5);
+    uint32_t doublings = scene.hair->field_detail.doublings;
+    assert_true(doublings > 0);
+    read_mean(&scene, coarse);
+    assert_true(coarse[3] > 1e-4);
+    uint64_t bytes = hair_test_gpu_bytes(scene.test);
+    hair_test_ok(scene.test, hair_get_field(scene.hair, &info)); // The application gets all voxels.
+    assert_float_equal(info.voxel, scene.hair->field_detail.voxel, 0);
+    uint64_t full = hair_test_gpu_bytes(scene.test);
+    assert_true(full > bytes);
+    draw(&scene);
+    assert_int_equal(scene.hair->field_detail.doublings, 0);
+    read_mean(&scene, fine);
+    for (int k = 0; k < 4; ++k) assert_float_equal(coarse[k], fine[k], 0.02 * fine[k]);
+    for (int i = 0; i < 70; ++i) draw_behind_ball(&scene, 5);
+    assert_int_equal(scene.hair->field_detail.doublings, doublings);
+    assert_true(hair_test_gpu_bytes(scene.test) < bytes + (full - bytes) / 2);
+    hair_test_scene_free(&scene);
+}
+
+static void near_view_after_a_far_view_is_pushed_out(void** state)
+{
+    static float alone[4 * SIDE * SIDE], after[4 * SIDE * SIDE];
+    hair_lod lod = hair_lod_default();
+    for (int is_after = 0; is_after < 2; ++is_after) {
+        struct hair_test_scene scene = make_lit_scene(*state, &lod);
+        draw_behind_ball(&scene, is_after ? 5 : 0.3f);
+        set_away(&scene, 0.3f);
+        draw(&scene);
+        assert_int_equal(scene.hair->field_detail.doublings, 0);
+        hair_test_frame_read(&scene.frame, is_after ? after : alone);
+        hair_test_scene_free(&scene);
+    }
+    assert_float_equal(hair_test_max_difference(alone, after, 4 * SIDE * SIDE), 0, 0);
+}
+
 int main(void)
 {
     if (hair_test_skips()) return 0;
     const struct CMUnitTest tests[] = {HAIR_TEST(views_never_list_more_strands_than_fit),
-                                       HAIR_TEST(memory_follows_the_distance)};
+                                       HAIR_TEST(memory_follows_the_distance),
+                                       HAIR_TEST(far_field_has_fewer_voxels_and_the_same_light),
+                                       HAIR_TEST(near_view_after_a_far_view_is_pushed_out)};
     return cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);
 }
