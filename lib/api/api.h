@@ -207,7 +207,7 @@ void hair_begin_frame(hair_instance* hair);
 
 // Update the field, in full detail, to the head and colliders of the last step. [GL], with the context entered.
 hair_result hair_update_field(hair_instance* hair);
-// Choose the size of voxels for the view that is drawn next, before follower collision is asked for.
+// Choose the size of voxels for the view that is drawn next, before follower collision is needed.
 void hair_choose_field_detail(hair_instance* hair);
 // Update the field as hair_update_field() does, but in the detail that was chosen last.
 hair_result hair_update_view_field(hair_instance* hair);
