@@ -205,7 +205,8 @@ struct hair_frame_requests* hair_current_requests(hair_instance* hair);
 // End the current frame and begin the next.
 void hair_begin_frame(hair_instance* hair);
 
-// Update the field, in full detail, to the head and colliders of the last step. [GL], with the context entered.
+// Update the field, in full detail, to the head and colliders of the last step. [GL], with the
+// context entered.
 hair_result hair_update_field(hair_instance* hair);
 // Choose the size of voxels for the view that is drawn next, before follower collision is needed.
 void hair_choose_field_detail(hair_instance* hair);
