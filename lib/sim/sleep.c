@@ -196,9 +196,10 @@ static void request_measurement(struct hair_sim* sim)
     hair_gl_bind_buffers(gl, GL_SHADER_STORAGE_BUFFER, HAIR_BIND_STATE, 3, storage);
     hair_gl_run(gl, HAIR_GL_ACTIVITY, groups < MAX_GROUPS ? groups : MAX_GROUPS);
     hair_gl_copy_buffer(gl, sleep->activity, sleep->readback, at, at, 2 * sizeof(uint32_t));
-    hair_gl_fence(gl, &sleep->fence);
     sleep->due = sleep->quiet_time + gaps[sleep->samples % ROUND];
     sleep->waits = sleep->samples > 0; // The first has no anchors.
+    // A list sets the fence only when it has recorded all instances.
+    if (sleep->waits) hair_gl_fence(gl, &sleep->fence);
     sleep->steps = 0;
     sleep->time = 0;
     ++sleep->samples;
@@ -206,7 +207,6 @@ static void request_measurement(struct hair_sim* sim)
         sleep->now = (struct hair_activity){0, 0};
         sleep->before = -1;
         sleep->since = sleep->quiet_time;
-        drop_answer(sim);
     }
     if (params.anchors) {
         sleep->span_before = sleep->span;
@@ -221,8 +221,9 @@ static void read_answer(struct hair_sim* sim, GLuint64 wait)
 {
     struct hair_sleep* sleep = &sim->sleep;
     if (sleep->known) return;
-    HAIR_ASSERT(sleep->waits && sleep->fence && sleep->mapped);
-    GLenum status = sim->gl->ClientWaitSync(sleep->fence, GL_SYNC_FLUSH_COMMANDS_BIT, 0);
+    HAIR_ASSERT(sleep->waits && sleep->mapped);
+    GLenum status = GL_WAIT_FAILED; // The driver may have refused the fence.
+    if (sleep->fence) status = sim->gl->ClientWaitSync(sleep->fence, GL_SYNC_FLUSH_COMMANDS_BIT, 0);
     if (status == GL_TIMEOUT_EXPIRED && wait > 0)
         status = sim->gl->ClientWaitSync(sleep->fence, GL_SYNC_FLUSH_COMMANDS_BIT, wait);
     if (status == GL_TIMEOUT_EXPIRED && wait == 0) return;

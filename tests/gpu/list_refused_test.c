@@ -1,5 +1,5 @@
 // list_refused_test.c - lists that are drawn while memory or objects are refused. Each head is
-// drawn as a whole or not at all, and the next draw is complete.
+// drawn as a whole or not at all, and the next draw is complete. Heads without fences do not sleep.
 //
 // HAIR_TEST_FULL=1 in the environment refuses every site, not every seventh.
 #include "tests/support/refusal.h"
@@ -142,9 +142,53 @@ static void refused_lists_draw_heads_whole_or_not_at_all(void** state)
     free_all(&crowd);
 }
 
+// Step both of two heads alone or by a list. Check that no fence is left without a measurement that
+// waits for it. Return whether both are asleep.
+static bool step_both(struct crowd* crowd, bool by_list)
+{
+    bool sleep = true;
+    if (by_list) hair_test_ok(crowd->test, hair_step_list(crowd->hair, 2, 1.0f / 30));
+    for (int i = 0; i < 2; ++i) {
+        const struct hair_sleep* state = &crowd->hair[i]->sim.sleep;
+        if (!by_list) hair_test_ok(crowd->test, hair_step(crowd->hair[i], 1.0f / 30));
+        assert_true(!state->fence || state->waits);
+        sleep &= state->asleep;
+    }
+    assert_int_equal(glGetError(), GL_NO_ERROR);
+    return sleep;
+}
+
+static void heads_without_fences_stay_awake_until_there_are_some(void** state)
+{
+    static struct crowd crowd;
+    hair_physics physics = hair_physics_default();
+    physics.sleep_threshold = 0.01f;
+    physics.damping = 20;
+    for (int by_list = 0; by_list < 2; ++by_list) {
+        uint32_t steps = 0;
+        make(&crowd, *state);
+        hair_test_refusal.refusable = HAIR_TEST_REFUSE_QUERIES;
+        for (int i = 0; i < 2; ++i) hair_test_ok(crowd.test, hair_set_physics(crowd.hair[i], &physics));
+        for (; steps < 9; ++steps) step_both(&crowd, by_list); // The first measurement needs no fence.
+        hair_test_refusal.refuse = hair_test_refusal.creations + 1;
+        hair_test_refusal.is_lasting = true;
+        for (; steps < 60; ++steps) assert_false(step_both(&crowd, by_list));
+        assert_true(hair_test_refusal.creations > hair_test_refusal.refuse);
+        hair_test_refusal.refuse = 0;
+        hair_test_refusal.is_lasting = false;
+        while (steps < MAX_SITES && !step_both(&crowd, by_list)) ++steps;
+        assert_in_range(steps, 60, MAX_SITES - 1);
+        hair_test_refusal.refusable = HAIR_TEST_REFUSE_OBJECTS;
+        free_all(&crowd);
+    }
+}
+
 int main(void)
 {
     if (hair_test_skips()) return 0;
-    const struct CMUnitTest tests[] = {HAIR_TEST(refused_lists_draw_heads_whole_or_not_at_all)};
+    const struct CMUnitTest tests[] = {
+        HAIR_TEST(refused_lists_draw_heads_whole_or_not_at_all),
+        HAIR_TEST(heads_without_fences_stay_awake_until_there_are_some),
+    };
     return cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);
 }
