@@ -169,7 +169,8 @@ static void heads_without_fences_stay_awake_until_there_are_some(void** state)
         make(&crowd, *state);
         hair_test_refusal.refusable = HAIR_TEST_REFUSE_QUERIES;
         for (int i = 0; i < 2; ++i) hair_test_ok(crowd.test, hair_set_physics(crowd.hair[i], &physics));
-        for (; steps < 9; ++steps) step_both(&crowd, by_list); // The first measurement needs no fence.
+        // The first measurement needs no fence.
+        for (; steps < 9; ++steps) step_both(&crowd, by_list);
         hair_test_refusal.refuse = hair_test_refusal.creations + 1;
         hair_test_refusal.is_lasting = true;
         for (; steps < 60; ++steps) assert_false(step_both(&crowd, by_list));
