@@ -239,7 +239,7 @@ HAIR_API hair_result hair_report(hair_instance* hair, bool wait, hair_report_inf
 /// - hair_lod.importance falls. Views without a hair_lod get one that draws everything while the
 ///   time suffices.
 /// - The substep rate of hair that is few pixels large, or that no view shows, falls by powers of
-///   two.
+///   two. Its light is computed in every second to fourth frame.
 /// - HAIR_RENDER_PATH_COMPUTE finds one half, then one quarter of the samples of a pixel.
 ///
 /// hair_report_info tells what is given up. Time is measured by timestamps without waiting. Detail

@@ -1,6 +1,10 @@
 // draw.c - public calls that draw one instance or many.
 #include "lib/api/api.h"
 
+#include <math.h>
+
+#define MAX_LIGHT_INTERVAL 4 // Frames that a budget may keep the light of small heads.
+
 // Check the framebuffer. Drawing into an incomplete one would raise the application's error flag
 // and draw nothing.
 static hair_result check_framebuffer(const hair_instance* hair)
@@ -109,6 +113,7 @@ static void note_size(hair_instance* hair, const struct hair_view_copy* copy)
     const hair_view* view = &copy->view;
     struct hair_budget* budget = &hair->context->budget;
     hair->renderer.sample_divisor = budget->ms > 0 ? budget->sample_divisor : 1;
+    hair->renderer.light_age.interval = (uint32_t)fminf(1 / hair->sim.rate_factor, MAX_LIGHT_INTERVAL);
     if (!budget->ms) return;
     budget->has_drawn = true;
     if (view->pass != HAIR_PASS_COLOR && view->pass != HAIR_PASS_MOTION) return;

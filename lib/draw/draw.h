@@ -44,6 +44,14 @@ enum hair_draw_resource {
     HAIR_RESOURCES
 };
 
+// Light of vertices that was computed last, which later frames may use.
+struct hair_light_age {
+    uint32_t interval; // Number of frames for which light is kept. 0 or 1 computes it in each.
+    uint32_t frame; // Frame of the light.
+    uint32_t lights; // Values of a vertex. 0 without light.
+    double fraction; // About which fraction of the strands have light.
+};
+
 struct hair_renderer {
     struct hair_gl* gl;
     struct hair_geometry* geometry;
@@ -65,6 +73,7 @@ struct hair_renderer {
     // Ratio of the samples of the framebuffer to those that compute rasterisation finds. 0 or 1
     // finds all.
     uint32_t sample_divisor;
+    struct hair_light_age light_age;
     struct hair_extent extent;
     hair_vec3 usual_size; // Size of the box that usually contains the hair, in metres.
     struct hair_strand_list strand_list;

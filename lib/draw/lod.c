@@ -96,6 +96,7 @@ float hair_draw_cell(const struct hair_renderer* renderer, const hair_view* view
 
 double hair_draw_estimate_fraction(const struct hair_renderer* renderer, const hair_lod* lod)
 {
+    if (!lod) return 1;
     float width = 2 * renderer->geometry->look.strand.radius * renderer->pixels_per_metre;
     return (double)(lod->strand_fraction *
                     (renderer->pixels_per_metre > 0

@@ -27,7 +27,7 @@ float hair_draw_depth_direction(struct hair_gl* gl);
 
 // Return the cell size of the self-shadow grid for a view, in metres. Defined in lod.c.
 float hair_draw_cell(const struct hair_renderer* renderer, const hair_view* view);
-// Return about which fraction of all strands a level of detail draws.
+// Return about which fraction of all strands a level of detail draws. NULL draws all.
 double hair_draw_estimate_fraction(const struct hair_renderer* renderer, const hair_lod* lod);
 // Return the maximum number of strands that a view may draw.
 uint32_t hair_draw_max_strands(const struct hair_renderer* renderer, const struct hair_pose* head,

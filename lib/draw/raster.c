@@ -72,7 +72,7 @@ static void write_pixels(const float viewport[4], const float unit[16], float ma
 // Return about how many segments a view draws, each strand with all of its segments.
 static uint64_t estimate_segments(const struct hair_renderer* renderer, const hair_view* view)
 {
-    double fraction = view->lod ? hair_draw_estimate_fraction(renderer, view->lod) : 1;
+    double fraction = hair_draw_estimate_fraction(renderer, view->lod);
     double strands = fmax(ceil(fraction * (double)renderer->geometry->followers), 1);
     return (uint64_t)strands * renderer->geometry->look.strand.segments;
 }

@@ -30,9 +30,24 @@ static uint32_t count_grid_nodes(const struct hair_renderer* renderer, double ce
     return renderer->has_attached_roots && nodes < HAIR_DENSITY_NODES ? (uint32_t)nodes : HAIR_DENSITY_NODES;
 }
 
+// Return whether a view may use the light of a frame before. Strands that were not drawn then have
+// none.
+static bool keeps_light(const struct hair_renderer* renderer, const struct hair_draw_plan* plan)
+{
+    const struct hair_light_age* age = &renderer->light_age;
+    const struct hair_self_shadow_state* self_shadow = &renderer->lighting->self_shadow;
+    const hair_lod* lod = plan->view->lod;
+    size_t vertices = hair_geometry_count_vertices(renderer->geometry);
+    return age->interval > 1 && lod && self_shadow->texture &&
+           self_shadow->numbers == vertices * plan->light_values && age->lights == plan->light_values &&
+           renderer->frame - age->frame < age->interval &&
+           hair_draw_estimate_fraction(renderer, lod) <= age->fraction;
+}
+
 hair_result hair_draw_ensure_self_shadow(struct hair_renderer* renderer, struct hair_draw_plan* plan)
 {
     struct hair_draw_params drawn, all;
+    if (keeps_light(renderer, plan)) return HAIR_OK;
     bool part = needs_cache_of_a_part(renderer, plan->view);
     write_shadow_params(renderer, plan, plan->view, &drawn);
     all = drawn;
@@ -45,6 +60,12 @@ hair_result hair_draw_ensure_self_shadow(struct hair_renderer* renderer, struct 
     uint32_t nodes = count_grid_nodes(renderer, (double)all.origin.w);
     hair_result result = hair_lighting_ensure_grid(renderer->lighting, nodes, all.light_values);
     if (result) return result;
-    return hair_lighting_update_self_shadow(renderer->lighting, renderer->geometry, plan->view, &all, &drawn,
-                                            part);
+    result = hair_lighting_update_self_shadow(renderer->lighting, renderer->geometry, plan->view, &all,
+                                              &drawn, part);
+    struct hair_light_age* age = &renderer->light_age;
+    *age = (struct hair_light_age){.interval = age->interval,
+                                   .frame = renderer->frame,
+                                   .lights = result ? 0 : plan->light_values,
+                                   .fraction = hair_draw_estimate_fraction(renderer, plan->view->lod)};
+    return result;
 }

@@ -155,6 +155,33 @@ static void small_and_unseen_heads_give_up_first(void** state)
     free_heads(&heads);
 }
 
+static void small_heads_keep_their_light_for_some_frames(void** state)
+{
+    struct heads heads = make_heads(*state, true);
+    struct hair_test* test = heads.scene.test;
+    for (int i = 0; i < HEADS; ++i) {
+        hair_look look = heads.hair[i]->look;
+        look.self_shadow.method = HAIR_SELF_SHADOW_STRANDS;
+        hair_test_ok(test, hair_set_look(heads.hair[i], &look));
+    }
+    uint32_t lit[HEADS] = {0};
+    run_frames(&heads, 4);
+    for (int i = 0; i < HEADS; ++i)
+        assert_true(hair_test_report_row(test, heads.hair[i], "self_shadow").runs > 0);
+    hair_test_ok(test, hair_set_budget(test->context, 5));
+    ticker.fixed = 0.2, ticker.variable = 1.2;
+    run_frames(&heads, 200);
+    for (int frame = 0; frame < 8; ++frame) {
+        run_frame(&heads, DT);
+        for (int i = 0; i < HEADS; ++i)
+            lit[i] += hair_test_report_row(test, heads.hair[i], "self_shadow").runs > 0;
+    }
+    assert_int_equal(lit[0], 8); // All of its substeps are left to the near head.
+    assert_int_equal(lit[1], 4);
+    assert_int_equal(lit[2], 2);
+    free_heads(&heads);
+}
+
 static void work_of_the_application_does_not_count(void** state)
 {
     struct heads heads = make_heads(*state, true);
@@ -285,6 +312,7 @@ int main(void)
     if (hair_test_skips()) return 0;
     const struct CMUnitTest tests[] = {HAIR_TEST(budget_is_kept_and_detail_comes_back),
                                        HAIR_TEST(small_and_unseen_heads_give_up_first),
+                                       HAIR_TEST(small_heads_keep_their_light_for_some_frames),
                                        HAIR_TEST(work_of_the_application_does_not_count),
                                        HAIR_TEST(budget_that_suffices_changes_no_picture),
                                        HAIR_TEST(levels_of_the_application_are_multiplied),
