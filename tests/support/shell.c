@@ -35,6 +35,15 @@ const char* hair_test_folder(void)
     return folder;
 }
 
+FILE* hair_test_shell_create(const char* name, const char* ending)
+{
+    char path[512];
+    assert_in_range(snprintf(path, sizeof path, "%s/%s%s", folder, name, ending), 1, sizeof path - 1);
+    FILE* file = fopen(path, "wb");
+    assert_non_null(file);
+    return file;
+}
+
 int hair_test_shell(const char* command)
 {
     static char line[8192];

@@ -3,6 +3,7 @@
 #define HAIR_TESTS_SUPPORT_SHELL_H
 
 #include <jansson.h>
+#include <stdio.h>
 
 // Create a new folder. For cmocka_run_group_tests(). `tool` is a path.
 int hair_test_shell_start(const char* tool);
@@ -11,6 +12,8 @@ int hair_test_shell_start_capture(const char* tool);
 // Remove the folder. For cmocka_run_group_tests().
 int hair_test_shell_finish(void** state);
 const char* hair_test_folder(void); // Return the path of the folder.
+// Create a file in the folder, or fail. The caller closes it. `ending` may be "".
+FILE* hair_test_shell_create(const char* name, const char* ending);
 
 extern char hair_test_said[65536]; // output of the last command, both streams
 

@@ -51,10 +51,7 @@ static void save_turned(void)
     size_t at = hair_test_find_chunk(&file, "TEXC") + 16;
     for (size_t i = 0; i < 4; ++i) hair_test_set_float(&file, at + 8 * i + 4, i < 2 ? 1 : 0);
     hair_test_resize_chunk(&file, "TEXC", 0, 0);
-    char path[256];
-    snprintf(path, sizeof path, "%s/turned.groom", hair_test_folder());
-    FILE* out = fopen(path, "wb");
-    assert_non_null(out);
+    FILE* out = hair_test_shell_create("turned", ".groom");
     assert_int_equal(fwrite(file.bytes, 1, file.size, out), file.size);
     fclose(out);
     free(file.bytes);

@@ -21,10 +21,8 @@
 // Write a scene of the walking character with some more members, which may be "".
 static void write_scene(const char* name, const char* character, const char* more)
 {
-    char path[512], folder[512];
-    snprintf(path, sizeof path, "%s/%s.json", hair_test_folder(), name);
-    FILE* file = fopen(path, "w");
-    assert_non_null(file);
+    char folder[512];
+    FILE* file = hair_test_shell_create(name, ".json");
     assert_non_null(getcwd(folder, sizeof folder));
     fprintf(file, "{\"character\": {\"file\": \"%s/tools/scenes/walker.glb\"%s}%s, ", folder, character,
             more);

@@ -20,10 +20,7 @@
 // Write a scene with a ball of fur in black on white, without a shadow. `cuts` may be "".
 static void write_scene(const char* name, const char* cuts)
 {
-    char path[512];
-    snprintf(path, sizeof path, "%s/%s.json", hair_test_folder(), name);
-    FILE* file = fopen(path, "w");
-    assert_non_null(file);
+    FILE* file = hair_test_shell_create(name, ".json");
     fprintf(file, "{\"fur\": {\"strands\": 400, \"length\": 0.1, \"ball\": 0.05}, %s ", cuts);
     fprintf(file, "\"fps\": 30, \"frames\": 9, \"picture\": 6, \"size\": [%d, %d], \"show\": \"hair\", ",
             SIZE, SIZE);

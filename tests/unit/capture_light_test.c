@@ -27,11 +27,7 @@
 // Write a scene with a ball of fur. One of three lights shines in red.
 static void write_scene(const char* name, int light, const char* shadow)
 {
-    char path[512];
-    FILE* file;
-    snprintf(path, sizeof path, "%s/%s.json", hair_test_folder(), name);
-    file = fopen(path, "w");
-    assert_non_null(file);
+    FILE* file = hair_test_shell_create(name, ".json");
     fprintf(
         file,
         "{\"fur\": {\"strands\": 4000, \"length\": 0.05, \"ball\": 0.1}, \"size\": [%d, %d], \"frames\": 1, ",

@@ -19,10 +19,7 @@
 
 static void save(const char* name, struct hair_test_file file)
 {
-    char path[256];
-    snprintf(path, sizeof path, "%s/%s", hair_test_folder(), name);
-    FILE* out = fopen(path, "wb");
-    assert_non_null(out);
+    FILE* out = hair_test_shell_create(name, "");
     assert_int_equal(fwrite(file.bytes, 1, file.size, out), file.size);
     fclose(out);
     free(file.bytes);

@@ -45,10 +45,7 @@ static const struct action actions[] = {
 
 static void write_file(const char* name, const char* text)
 {
-    char path[256];
-    snprintf(path, sizeof path, "%s/%s", hair_test_folder(), name);
-    FILE* file = fopen(path, "w");
-    assert_non_null(file);
+    FILE* file = hair_test_shell_create(name, "");
     fputs(text, file);
     fclose(file);
 }

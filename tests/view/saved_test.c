@@ -13,10 +13,7 @@
 
 static void write_file(const char* name, const char* text)
 {
-    char path[256];
-    snprintf(path, sizeof path, "%s/%s", hair_test_folder(), name);
-    FILE* file = fopen(path, "w");
-    assert_non_null(file);
+    FILE* file = hair_test_shell_create(name, "");
     fputs(text, file);
     fclose(file);
 }

@@ -55,11 +55,9 @@ static int count_clicks(const char* script)
 
 static void run(const struct task* task)
 {
-    char path[256], command[1024];
+    char command[1024];
     hair_test_shell_expect(0, "rm -rf $D/task && mkdir $D/task && cp $D/bob.tfx $D/task", "");
-    snprintf(path, sizeof path, "%s/task/s", hair_test_folder());
-    FILE* file = fopen(path, "w");
-    assert_non_null(file);
+    FILE* file = hair_test_shell_create("task/s", "");
     fprintf(file, "wait 3\nsave 0.json\n%swait 3\nsave 1.json\nreport r.json\n", task->script);
     fclose(file);
     snprintf(command, sizeof command,
