@@ -1,5 +1,5 @@
 // buffers_test.c - the buffers of strands for the application have the vertices that are read back
-// and drawn, in this frame and the previous one. Only what is asked for is computed.
+// and drawn, in this frame and the previous one.
 #include "tests/support/scene.h"
 
 #include <math.h>
@@ -10,11 +10,6 @@
 #include "tests/support/captured_lines.h"
 #include "tests/support/torture.h"
 
-#define FOLLOWER_ATTRIBUTES 127u
-#define GUIDE_ATTRIBUTES                                                                                     \
-    ((uint32_t)(HAIR_ATTRIBUTE_POSITION | HAIR_ATTRIBUTE_TANGENT | HAIR_ATTRIBUTE_STRAND |                   \
-                HAIR_ATTRIBUTE_PREV_POSITION))
-
 static struct hair_test_points points, before;
 
 static hair_look look_of(bool is_curly, uint32_t segments)
@@ -23,14 +18,6 @@ static hair_look look_of(bool is_curly, uint32_t segments)
     if (is_curly) hair_look_apply_preset(&look, HAIR_LOOK_CURLY);
     look.strand.segments = segments;
     return look;
-}
-
-static hair_buffers get(struct hair_test_scene* scene, hair_read_source source, uint32_t attributes)
-{
-    hair_buffers out = hair_buffers_default();
-    out.attributes = attributes;
-    hair_test_ok(scene->test, hair_get_buffers(scene->hair, source, &out));
-    return out;
 }
 
 // Read components of 32 bits of an attribute.
@@ -75,7 +62,7 @@ static void check_bounds(const hair_buffers* got, const struct hair_test_points*
 
 static void check_followers(struct hair_test_scene* scene, const hair_look* look)
 {
-    hair_buffers got = get(scene, HAIR_READ_FOLLOWERS, FOLLOWER_ATTRIBUTES);
+    hair_buffers got = hair_test_get_buffers(scene, HAIR_READ_FOLLOWERS, HAIR_TEST_FOLLOWER_ATTRIBUTES);
     hair_test_read_points(scene->test, scene->hair, HAIR_READ_FOLLOWERS, &points);
     assert_int_equal(got.strand_vertices, look->strand.segments + 1);
     assert_int_equal(got.strand_count, scene->groom->info.follower_count);
@@ -106,7 +93,7 @@ static void buffers_have_the_drawn_lines(void** state)
         hair_look look = look_of(curly, 12);
         hair_test_ok(scene.test, hair_set_look(scene.hair, &look));
         hair_test_ok(scene.test, hair_step(scene.hair, 1.0f / 60));
-        hair_buffers got = get(&scene, HAIR_READ_FOLLOWERS, FOLLOWER_ATTRIBUTES);
+        hair_buffers got = hair_test_get_buffers(&scene, HAIR_READ_FOLLOWERS, HAIR_TEST_FOLLOWER_ATTRIBUTES);
         float* at = malloc(12 * (size_t)got.position.count);
         float* radius = malloc(4 * (size_t)got.radius.count);
         read_components(got.position, 3, at);
@@ -133,7 +120,7 @@ static void tangents_are_unit_and_along_the_strand(void** state)
 {
     hair_look look = look_of(false, 64);
     struct hair_test_scene scene = hair_test_scene_of(*state, NULL, &look);
-    hair_buffers got = get(&scene, HAIR_READ_FOLLOWERS, HAIR_ATTRIBUTE_TANGENT);
+    hair_buffers got = hair_test_get_buffers(&scene, HAIR_READ_FOLLOWERS, HAIR_ATTRIBUTE_TANGENT);
     hair_test_read_points(scene.test, scene.hair, HAIR_READ_FOLLOWERS, &points);
     uint16_t* packed = malloc(8 * (size_t)got.tangent.count);
     assert_int_equal(got.tangent.format, GL_RGB16);
@@ -162,7 +149,7 @@ static void guides_are_those_that_are_read_back(void** state)
 {
     struct hair_test_scene scene = hair_test_scene_of(*state, NULL, NULL);
     hair_test_ok(scene.test, hair_step(scene.hair, 1.0f / 60));
-    hair_buffers got = get(&scene, HAIR_READ_SMOOTH, GUIDE_ATTRIBUTES);
+    hair_buffers got = hair_test_get_buffers(&scene, HAIR_READ_SMOOTH, HAIR_TEST_GUIDE_ATTRIBUTES);
     hair_test_read_points(scene.test, scene.hair, HAIR_READ_SMOOTH, &points);
     check_positions(got.position, got.origin, &points);
     check_indices(&got);
@@ -268,7 +255,7 @@ static void colors_are_those_of_the_look(void** state)
             look.color.root[1] = 0.7f, look.color.tip[2] = 0.9f;
             hair_test_ok(scene.test, hair_set_look(scene.hair, &look));
         }
-        hair_buffers got = get(&scene, HAIR_READ_FOLLOWERS, HAIR_ATTRIBUTE_COLOR);
+        hair_buffers got = hair_test_get_buffers(&scene, HAIR_READ_FOLLOWERS, HAIR_ATTRIBUTE_COLOR);
         uint16_t* halves = malloc(8 * (size_t)got.color.count);
         assert_int_equal(got.color.format, GL_RGBA16F);
         glGetNamedBufferSubData(got.color.buffer, 0, 8 * got.color.count, halves);
@@ -291,7 +278,7 @@ static void root_uvs_are_those_of_the_groom(void** state)
     struct hair_test_scene scene = {.test = test, .groom = hair_test_torture_groom(test)};
     hair_desc desc = hair_desc_default();
     hair_test_ok(test, hair_create(test->context, scene.groom, &desc, &scene.hair));
-    hair_buffers got = get(&scene, HAIR_READ_FOLLOWERS, FOLLOWER_ATTRIBUTES);
+    hair_buffers got = hair_test_get_buffers(&scene, HAIR_READ_FOLLOWERS, HAIR_TEST_FOLLOWER_ATTRIBUTES);
     const float* expected = scene.groom->root_uvs;
     float* uv = malloc(8 * (size_t)got.root_uv.count);
     assert_true(got.root_uv.is_per_strand && got.root_uv.format == GL_RG32F);
@@ -302,7 +289,8 @@ static void root_uvs_are_those_of_the_groom(void** state)
     hair_destroy(scene.hair);
     hair_groom_destroy(scene.groom);
     struct hair_test_scene bald = hair_test_scene_of(test, NULL, NULL);
-    got = get(&bald, HAIR_READ_FOLLOWERS, HAIR_ATTRIBUTE_ROOT_UV); // This groom has none.
+    // This groom has none.
+    got = hair_test_get_buffers(&bald, HAIR_READ_FOLLOWERS, HAIR_ATTRIBUTE_ROOT_UV);
     assert_true(got.root_uv.buffer == 0 && got.root_uv.count == 0);
     hair_test_scene_free(&bald);
 }
@@ -340,93 +328,6 @@ static void buffers_have_followers_that_are_pushed_out(void** state)
     hair_test_ok(scene.test, hair_set_colliders(scene.hair, &ball, 1, sizeof ball));
     for (int i = 0; i < 5; ++i) hair_test_ok(scene.test, hair_step(scene.hair, 1.0f / 60));
     check_followers(&scene, &look);
-    hair_test_scene_free(&scene);
-}
-
-static uint32_t runs_of(const struct hair_test_scene* scene, const char* pass)
-{
-    hair_timing timings[64];
-    uint32_t count = hair_get_timings(scene->context, timings, 64), runs = 0;
-    for (uint32_t i = 0; i < count && i < 64; ++i)
-        if (strncmp(timings[i].pass, pass, strlen(pass)) == 0) runs += timings[i].runs;
-    return runs;
-}
-
-static uint64_t bytes_of(const struct hair_test_scene* scene)
-{
-    hair_memory memory = hair_memory_default();
-    hair_test_ok(scene->test, hair_get_memory(scene->context, &memory));
-    return memory.bytes;
-}
-
-static void only_what_is_asked_for_is_computed_and_kept(void** state)
-{
-    struct hair_test_scene scene = hair_test_scene_make(*state, hair_egl_get_proc);
-    hair_test_scene_add(&scene, NULL, NULL);
-    hair_test_ok(scene.test, hair_step(scene.hair, 1.0f / 60));
-    uint64_t first = bytes_of(&scene);
-    hair_buffers got = get(&scene, HAIR_READ_SMOOTH, HAIR_ATTRIBUTE_POSITION | HAIR_ATTRIBUTE_TANGENT);
-    uint64_t tangents = 16ull * got.tangent.count;
-    assert_int_equal(bytes_of(&scene), first + tangents);
-    assert_int_equal(runs_of(&scene, "strands/guide_tangents"), 1);
-    assert_int_equal(runs_of(&scene, "strands/expand"), 0);
-    for (int i = 0; i < 3; ++i) get(&scene, HAIR_READ_FOLLOWERS, HAIR_ATTRIBUTE_POSITION);
-    assert_int_equal(runs_of(&scene, "strands/expand"), 1);
-    assert_int_equal(runs_of(&scene, "draw/reflectance"), 0);
-    uint32_t vertices = (uint32_t)hair_geometry_count_vertices(&scene.hair->geometry);
-    assert_int_equal(bytes_of(&scene), first + tangents + 24ull * vertices);
-    for (int i = 0; i < 3; ++i) {
-        got = get(&scene, HAIR_READ_FOLLOWERS, HAIR_ATTRIBUTE_POSITION | HAIR_ATTRIBUTE_COLOR);
-        hair_test_ok(scene.test, hair_step(scene.hair, 1.0f / 60));
-    }
-    assert_int_equal(runs_of(&scene, "draw/reflectance"), 1); // Colours do not move.
-    assert_int_equal(bytes_of(&scene), first + tangents + 32ull * vertices);
-    assert_true(got.color.buffer && !got.strand.buffer && !got.prev_position.buffer && !got.radius.buffer);
-    get(&scene, HAIR_READ_FOLLOWERS, FOLLOWER_ATTRIBUTES);
-    assert_int_equal(bytes_of(&scene), first + tangents + 52ull * vertices);
-    // Unused memory is freed.
-    for (int i = 0; i < 245; ++i) hair_test_ok(scene.test, hair_step(scene.hair, 1e-4f));
-    get(&scene, HAIR_READ_SMOOTH, HAIR_ATTRIBUTE_POSITION);
-    assert_int_equal(bytes_of(&scene), first);
-    hair_test_scene_free(&scene);
-}
-
-static void hair_without_followers_has_empty_buffers(void** state)
-{
-    struct hair_test_handmade wanted = hair_test_handmade_default();
-    wanted.followers = 0;
-    struct hair_test_scene scene = hair_test_scene_of(*state, &wanted, NULL);
-    hair_buffers got = get(&scene, HAIR_READ_FOLLOWERS, FOLLOWER_ATTRIBUTES);
-    assert_true(got.strand_count == 0 && got.position.buffer == 0 && got.position.count == 0);
-    got = get(&scene, HAIR_READ_SMOOTH, GUIDE_ATTRIBUTES);
-    assert_true(got.strand_count > 0 && got.position.buffer);
-    hair_test_scene_free(&scene);
-}
-
-static void wrong_arguments_are_refused(void** state)
-{
-    struct hair_test* test = *state;
-    struct hair_test_scene scene = hair_test_scene_of(test, NULL, NULL);
-    hair_buffers out = hair_buffers_default();
-    hair_result error = HAIR_ERROR_ARGUMENT;
-    hair_test_refused(test, hair_get_buffers(scene.hair, HAIR_READ_GUIDES, &out), error, "source is 0");
-    hair_test_refused(test, hair_get_buffers(scene.hair, (hair_read_source)-1, &out), error, "source is -1");
-    hair_test_refused(test, hair_get_buffers(scene.hair, HAIR_READ_SMOOTH, NULL), error, "hair_buffers");
-    out.attributes = 128;
-    hair_test_refused(test, hair_get_buffers(scene.hair, HAIR_READ_FOLLOWERS, &out), error,
-                      "hair_buffers.attributes is 128, not in [0, 127]");
-    out.attributes = HAIR_ATTRIBUTE_RADIUS;
-    hair_test_refused(test, hair_get_buffers(scene.hair, HAIR_READ_SMOOTH, &out), error, "guides have only");
-    assert_int_equal(hair_get_buffers(NULL, HAIR_READ_FOLLOWERS, &out), error);
-    out.header.version = 0;
-    hair_test_refused(test, hair_get_buffers(scene.hair, HAIR_READ_FOLLOWERS, &out), HAIR_ERROR_VERSION, "");
-    out = hair_buffers_default();
-    hair_egl_make_current(NULL);
-    hair_test_refused(test, hair_get_buffers(scene.hair, HAIR_READ_FOLLOWERS, &out), HAIR_ERROR_OPENGL, "");
-    hair_egl_make_current(test->egl);
-    out.attributes = 0;
-    hair_test_ok(test, hair_get_buffers(scene.hair, HAIR_READ_FOLLOWERS, &out));
-    assert_true(!out.position.buffer && out.strand_count > 0);
     hair_test_scene_free(&scene);
 }
 
@@ -472,9 +373,6 @@ int main(void)
         HAIR_TEST(root_uvs_are_those_of_the_groom),
         HAIR_TEST(buffers_are_whole_after_a_view_with_levels),
         HAIR_TEST(buffers_have_followers_that_are_pushed_out),
-        HAIR_TEST(only_what_is_asked_for_is_computed_and_kept),
-        HAIR_TEST(hair_without_followers_has_empty_buffers),
-        HAIR_TEST(wrong_arguments_are_refused),
         HAIR_TEST(buffers_are_made_again_after_a_restoration),
     };
     return cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);

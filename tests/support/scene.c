@@ -178,6 +178,15 @@ double hair_test_points_distance(const struct hair_test_points* a, const struct 
     return max;
 }
 
+hair_buffers hair_test_get_buffers(const struct hair_test_scene* scene, hair_read_source source,
+                                   uint32_t attributes)
+{
+    hair_buffers out = hair_buffers_default();
+    out.attributes = attributes;
+    hair_test_ok(scene->test, hair_get_buffers(scene->hair, source, &out));
+    return out;
+}
+
 double hair_test_mean_alpha(const float* pixels, size_t count)
 {
     double sum = 0;

@@ -74,6 +74,16 @@ void hair_test_read_points(const struct hair_test* test, hair_instance* hair, ha
 // Return the maximum distance of two vertices of the same index, m.
 double hair_test_points_distance(const struct hair_test_points* a, const struct hair_test_points* b);
 
+// Attributes that followers and guides have.
+#define HAIR_TEST_FOLLOWER_ATTRIBUTES 127u
+#define HAIR_TEST_GUIDE_ATTRIBUTES                                                                           \
+    ((uint32_t)(HAIR_ATTRIBUTE_POSITION | HAIR_ATTRIBUTE_TANGENT | HAIR_ATTRIBUTE_STRAND |                   \
+                HAIR_ATTRIBUTE_PREV_POSITION))
+
+// Return the buffers of strands for the application.
+hair_buffers hair_test_get_buffers(const struct hair_test_scene* scene, hair_read_source source,
+                                   uint32_t attributes);
+
 // Return the mean of the fourth of every four numbers.
 double hair_test_mean_alpha(const float* pixels, size_t count);
 // Return the maximum difference of two numbers of the same index.
