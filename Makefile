@@ -321,7 +321,7 @@ $(B)/tests/unit/bullet_%_test: $(B)/tests/unit/bullet_%_test.cpp.o $(SUPPORT) $(
 LONG := bench rod_limits determinism soak threads rod_stress lod instance list character memory capture lengths occlusion golden capture_bullet \
   capture_output bench_cases gallery state save_hostile rod_any rod_heap isolines hair_grid paths \
   precompile rod_contact rod_pins examples rod_two body save rod_whip rod_shape contained rod_bodies \
-  instance_far air host_capture
+  instance_far air host_capture accepted random_lists
 LONG := $(foreach n,$(LONG),$(filter %/$(n)_test,$(TESTS)))
 run-tests: $(TESTS)
 	@rm -f $(B)/failed; printf '%s\n' $(filter $(STAGE),$(LONG)) $(filter-out $(LONG),$(STAGE)) | grep -F -- '$(filter)' | \
