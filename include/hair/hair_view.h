@@ -112,7 +112,7 @@ typedef enum hair_slice {
 /// strands only.
 ///
 /// With per_patch, two more details depend on the size on the screen. Cells of
-/// HAIR_SELF_SHADOW_STRANDS are at least 2 pixels large. Followers are pushed out of colliders only
+/// HAIR_SELF_SHADOW_STRANDS are at least 1 pixel large. Followers are pushed out of colliders only
 /// if 5 mm are more than a pixel, and fully from 2 pixels on. A view that does not show this
 /// displacement does not compute it.
 typedef struct hair_lod {

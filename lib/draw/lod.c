@@ -47,7 +47,7 @@ static float find_scale(const struct hair_renderer* renderer, const float projec
 }
 
 #define MARGIN 1.001 // Factor that allows for rounding on the GPU.
-#define CELL 2.0f // Smallest useful cell of the self-shadow grid, in pixels.
+#define CELL 1.0f // Smallest useful cell of the self-shadow grid, in pixels.
 // Typical displacement of followers pushed out of colliders, in metres.
 #define PUSH_OUT_DISTANCE 0.005f
 
