@@ -4,7 +4,7 @@
 #include <math.h>
 
 #define MAX_DOUBLINGS 3 // A field of 256 voxels then has 32.
-#define MAX_PIXELS 3 // Maximum size of a doubled voxel.
+#define MAX_PIXELS 2 // Maximum size of a doubled voxel.
 #define SPARE_VIEWS 60 // Views in turn that need less before the field becomes coarser.
 
 // Write the transform from the world to the box's [0, 1]^3: p becomes (conj(q) (p - head) - lower)

@@ -73,8 +73,8 @@ hair_result hair_instance_create_rooms(hair_instance* hair, const hair_groom* gr
     HAIR_TRY(
         hair_geometry_create(&hair->geometry, gl, groom, &hair->sim, &look, hair->creation.uses_prepass));
     HAIR_TRY(hair_lighting_create(&hair->lighting, gl, groom));
-    hair_renderer_create(&hair->renderer, gl, groom, hair->bounds, &hair->field.box, &hair->geometry,
-                         &hair->lighting, &context->fastest);
+    hair_renderer_create(&hair->renderer, gl, groom, hair->bounds, &hair->geometry, &hair->lighting,
+                         &context->fastest);
     hair_sim_reset(&hair->sim);
     return HAIR_OK;
 }

@@ -4,9 +4,8 @@
 #include "lib/draw/params.h"
 
 void hair_renderer_create(struct hair_renderer* renderer, struct hair_gl* gl, const struct hair_groom* groom,
-                          const hair_vec3 bounds[2], const struct hair_field_box* box,
-                          struct hair_geometry* geometry, struct hair_lighting* lighting,
-                          const struct hair_fastest* fastest)
+                          const hair_vec3 bounds[2], struct hair_geometry* geometry,
+                          struct hair_lighting* lighting, const struct hair_fastest* fastest)
 {
     hair_vec3 middle = hair_lerp(bounds[0], bounds[1], 0.5f);
     renderer->gl = gl;
@@ -14,9 +13,7 @@ void hair_renderer_create(struct hair_renderer* renderer, struct hair_gl* gl, co
     renderer->lighting = lighting;
     renderer->head_sphere = groom->head_sphere;
     renderer->reach = (hair_vec4){middle.x, middle.y, middle.z, hair_distance(middle, bounds[1])};
-    renderer->usual_size =
-        hair_scale(hair_v3((float)box->bricks[0], (float)box->bricks[1], (float)box->bricks[2]),
-                   HAIR_BRICK * box->voxel);
+    renderer->rest_size = hair_sub(groom->upper, groom->lower);
     hair_draw_find_extent(renderer, groom);
     renderer->fastest = fastest;
 }

@@ -75,7 +75,7 @@ struct hair_renderer {
     uint32_t sample_divisor;
     struct hair_light_age light_age;
     struct hair_extent extent;
-    hair_vec3 usual_size; // Size of the box that usually contains the hair, in metres.
+    hair_vec3 rest_size; // Size of the box around the hair at rest, in metres.
     struct hair_strand_list strand_list;
     struct hair_sorted_segments sorted_segments;
     struct hair_raster raster;
@@ -87,11 +87,10 @@ struct hair_renderer {
 };
 
 // Create a renderer of strands and lighting, which must outlive it like `fastest`. `bounds` are the
-// lower and the upper corner of the hair in the head's frame. `box` usually contains the hair.
+// lower and the upper corner of the hair in the head's frame.
 void hair_renderer_create(struct hair_renderer* renderer, struct hair_gl* gl, const struct hair_groom* groom,
-                          const hair_vec3 bounds[2], const struct hair_field_box* box,
-                          struct hair_geometry* geometry, struct hair_lighting* lighting,
-                          const struct hair_fastest* fastest);
+                          const hair_vec3 bounds[2], struct hair_geometry* geometry,
+                          struct hair_lighting* lighting, const struct hair_fastest* fastest);
 void hair_renderer_destroy(struct hair_renderer* renderer);
 // Set whether roots are fixed to the groom, and whether all strands are attached to it. Culling
 // depends on both.

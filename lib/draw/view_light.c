@@ -2,6 +2,8 @@
 #include "lib/draw/draw.h"
 #include "lib/draw/params.h"
 
+#define SWING 1.5 // Volume of the box around moving hair, as a multiple of that at rest.
+
 // Return whether the vertex cache only needs the strands that the view draws. These make up for
 // strands that a level of detail leaves out. A full cache that views share has all vertices.
 static bool needs_cache_of_a_part(const struct hair_renderer* renderer, const hair_view* view)
@@ -23,8 +25,8 @@ static void write_shadow_params(const struct hair_renderer* renderer, const stru
 // far out of its rest pose become larger. Hair that may come off gets all nodes.
 static uint32_t count_grid_nodes(const struct hair_renderer* renderer, double cell)
 {
-    const float* size = &renderer->usual_size.x;
-    double nodes = 1;
+    const float* size = &renderer->rest_size.x;
+    double nodes = SWING;
     HAIR_ASSERT(cell > 0);
     for (int i = 0; i < 3; ++i) nodes *= (double)size[i] / cell + 3;
     return renderer->has_attached_roots && nodes < HAIR_DENSITY_NODES ? (uint32_t)nodes : HAIR_DENSITY_NODES;

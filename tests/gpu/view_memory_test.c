@@ -107,12 +107,12 @@ static void memory_follows_the_distance(void** state)
     hair_test_scene_free(&scene);
 }
 
-// Let a ball hide half of the hair from the light, and draw it from a distance.
+// Let a ball above the hair hide some of it from the light, and draw it from a distance.
 static void draw_behind_ball(struct hair_test_scene* scene, float away)
 {
     hair_collider ball = hair_collider_default();
     ball.size[0] = 0.1f;
-    ball.position[0] = 0.05f, ball.position[1] = 0.1f;
+    ball.position[0] = 0.1f, ball.position[1] = 0.3f, ball.position[2] = 0.1f;
     hair_test_ok(scene->test, hair_set_colliders(scene->hair, &ball, 1, sizeof ball));
     hair_test_ok(scene->test, hair_step(scene->hair, 1.0f / 60));
     set_away(scene, away);
@@ -142,12 +142,17 @@ static void far_field_has_fewer_voxels_and_the_same_light(void** state)
     hair_lod lod = hair_lod_default();
     struct hair_test_scene scene = make_lit_scene(*state, &lod);
     hair_field_info info = hair_field_info_default();
-    double coarse[4], fine[4];
+    double coarse[4], fine[4], lit[4];
+    hair_test_ok(scene.test, hair_step(scene.hair, 1.0f / 60));
+    set_away(&scene, 5);
+    draw(&scene);
+    read_mean(&scene, lit);
     draw_behind_ball(&scene, 5);
     uint32_t doublings = scene.hair->field_detail.doublings;
     assert_true(doublings > 0);
     read_mean(&scene, coarse);
     assert_true(coarse[3] > 1e-4);
+    assert_true(coarse[0] < 0.9 * lit[0]); // The ball matters.
     uint64_t bytes = hair_test_gpu_bytes(scene.test);
     hair_test_ok(scene.test, hair_get_field(scene.hair, &info)); // The application gets all voxels.
     assert_float_equal(info.voxel, scene.hair->field_detail.voxel, 0);
