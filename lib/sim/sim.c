@@ -20,8 +20,6 @@ static hair_result prepare(struct hair_sim* sim, double from, double dt, double 
     HAIR_TRY(hair_targets_ensure(sim));
     HAIR_TRY(hair_sim_ensure_hair_grid(sim));
     if (sim->rods) HAIR_TRY(hair_wind_ensure(&sim->wind_state, sim->gl, &sim->wind));
-    HAIR_TRY(hair_wind_coupling_ensure(sim));
-    if (!hair_wind_coupling_is_on(sim)) sim->wind_state.box = (hair_vec4){0, 0, 0, 0};
     if (sim->contacts.any) HAIR_TRY(hair_contacts_find(sim, dt, fraction_of_step(from, dt), longest));
     HAIR_TRY(hair_impulses_ensure(sim));
     return hair_sim_ensure_solver(sim);
@@ -178,6 +176,7 @@ static void free_unused(struct hair_sim* sim)
 {
     if (!sim->colliders.current.count && sim->contacts.grid.contact) hair_contacts_free(sim);
     if (!hair_grid_is_on(sim) && sim->hair_grid.texture) hair_grid_free(sim);
+    if (!hair_wind_coupling_is_on(sim) && sim->wind_coupling.fluid.gl) hair_wind_coupling_free(sim);
 }
 
 // Return whether the current substep must be finished at its old length, because only the rate has
@@ -208,7 +207,12 @@ static hair_result prepare_all(struct hair_sim* sim, struct hair_rod_set* other,
     if (!result) result = hair_sleep_ensure(sim, disturbed, dt);
     if (!result) result = hair_diagnosis_ensure(sim, disturbed);
     if (result || again) hair_sim_swap_rods(sim, other);
-    return !result && again ? hair_sim_ensure_solver(sim) : result;
+    if (!result && again) result = hair_sim_ensure_solver(sim);
+    if (result) return result;
+    // Last, because a new fluid has no past.
+    result = hair_wind_coupling_ensure(sim);
+    if (result && !again) hair_sim_swap_rods(sim, other);
+    return result;
 }
 
 hair_result hair_sim_step(struct hair_sim* sim, double dt)
@@ -226,6 +230,7 @@ hair_result hair_sim_step(struct hair_sim* sim, double dt)
         return result;
     }
     // Nothing fails from here on, so that a step that fails changes nothing.
+    if (!hair_wind_coupling_is_on(sim)) sim->wind_state.box = (hair_vec4){0, 0, 0, 0};
     if (again) {
         from = finish_substep(sim, from, dt);
         hair_sim_swap_rods(sim, &other);

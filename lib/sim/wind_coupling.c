@@ -55,12 +55,12 @@ static bool is_porous(const struct hair_sim* sim)
     return sim->wind.fluid.drag_strand_count > 0 && sim->physics.drag > 0;
 }
 
-static hair_result ensure_hair(struct hair_sim* sim)
+static hair_result ensure_hair(struct hair_sim* sim, struct hair_fluid* fluid)
 {
     struct hair_wind_coupling* wind_coupling = &sim->wind_coupling;
     int wanted = is_porous(sim);
     if (!wanted) free_hair(wind_coupling, sim->gl);
-    HAIR_TRY(hair_fluid_ensure_hair(&wind_coupling->fluid, wanted));
+    HAIR_TRY(hair_fluid_ensure_hair(fluid, wanted));
     if (wanted && !wind_coupling->splat)
         HAIR_TRY(hair_grid_weigh(sim, &wind_coupling->splat, &wind_coupling->metres));
     if (wanted && !wind_coupling->params)
@@ -75,22 +75,31 @@ hair_result hair_wind_coupling_ensure_programs(struct hair_sim* sim)
     return hair_fluid_ensure_programs(sim->gl, (hair_fluid_method)sim->wind.fluid.projection, is_porous(sim));
 }
 
+static hair_result ensure_parts(struct hair_sim* sim, struct hair_fluid* fluid)
+{
+    HAIR_TRY(ensure_hair(sim, fluid));
+    return hair_fluid_make_room(fluid, sim->colliders.current.count);
+}
+
 hair_result hair_wind_coupling_ensure(struct hair_sim* sim)
 {
-    struct hair_fluid* fluid = &sim->wind_coupling.fluid;
-    if (!hair_wind_coupling_is_on(sim)) {
-        hair_wind_coupling_free(sim);
-        return HAIR_OK;
-    }
+    struct hair_fluid *fluid = &sim->wind_coupling.fluid, made;
+    if (!hair_wind_coupling_is_on(sim)) return HAIR_OK;
     struct hair_fluid_desc desc = desc_of(sim), was = fluid->desc;
-    int same = fluid->gl && was.cells == desc.cells && was.side == desc.side && was.method == desc.method;
-    fluid->desc.cycles = desc.cycles;
-    if (!same) {
-        hair_wind_coupling_free(sim);
-        HAIR_TRY(hair_fluid_create(fluid, sim->gl, &desc));
+    if (fluid->gl && was.cells == desc.cells && was.side == desc.side && was.method == desc.method) {
+        fluid->desc.cycles = desc.cycles;
+        return ensure_parts(sim, fluid);
     }
-    HAIR_TRY(ensure_hair(sim));
-    return hair_fluid_make_room(fluid, sim->colliders.current.count);
+    HAIR_TRY(hair_fluid_create(&made, sim->gl, &desc));
+    hair_result result = ensure_parts(sim, &made);
+    if (result) {
+        hair_fluid_destroy(&made);
+        return result;
+    }
+    hair_fluid_destroy(fluid);
+    *fluid = made;
+    sim->wind_coupling.substeps_done = 0;
+    return HAIR_OK;
 }
 
 void hair_wind_coupling_free(struct hair_sim* sim)

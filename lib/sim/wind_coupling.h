@@ -13,7 +13,7 @@
 struct hair_wind_coupling {
     // Distance field of the instance, updated before every step.
     const struct hair_collider_field* field;
-    struct hair_fluid fluid; // Exists only while the wind model is a fluid.
+    struct hair_fluid fluid; // Exists from the first to the last step in which the wind is a fluid.
     uint32_t substeps_done; // Number of substeps done in the current block.
     // Buffers of the grid of hair in the fluid, as in hair_grid. 0 if the fluid ignores hair.
     GLuint splat, params;
@@ -24,7 +24,8 @@ struct hair_sim;
 
 bool hair_wind_coupling_is_on(const struct hair_sim* sim);
 hair_result hair_wind_coupling_ensure_programs(struct hair_sim* sim);
-// Create what the wind needs. Free what the wind no longer needs.
+// Create what the wind needs. A fluid of another size replaces the fluid and its past. On failure
+// the fluid is as it was.
 hair_result hair_wind_coupling_ensure(struct hair_sim* sim);
 // Free what depends on the lengths of guides, which the next step makes again.
 void hair_wind_coupling_free_hair(struct hair_sim* sim);
