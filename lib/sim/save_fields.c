@@ -133,7 +133,8 @@ static void serialize_hair_grid(struct hair_serializer* s, struct hair_grid* hai
                         &hair_grid->substeps_done, MAX_SUBSTEPS_DONE);
     if (hair_grid->substeps_done == 0 || s->result) return;
     hair_serialize_buffer(s, "hair grid's accelerations", hair_grid->acceleration, size);
-    if (!hair_grid->acceleration) hair_serialize_skipped(s, "hair grid's accelerations", size);
+    if (!hair_grid->acceleration)
+        hair_serialize_skipped(s, "hair grid's accelerations", size, HAIR_MAX_STATE);
 }
 
 // Serialize the forces and turns of segments. An instance without the mixed scheme skips them. If
@@ -145,8 +146,8 @@ static void serialize_bend(struct hair_serializer* s, struct hair_sim* sim)
     hair_serialize_flag(s, "whether there are forces of segments", &there);
     s->lacks_bend = s->read && !there;
     if (!there || s->result) return;
-    hair_serialize_buffer(s, "forces and turns of segments", sim->bend, size);
-    if (!sim->bend) hair_serialize_skipped(s, "forces and turns of segments", size);
+    hair_serialize_buffer_within(s, "forces and turns of segments", sim->bend, size, HAIR_MAX_FORCE);
+    if (!sim->bend) hair_serialize_skipped(s, "forces and turns of segments", size, HAIR_MAX_FORCE);
 }
 
 // Serialize a skinned scalp and the scalp motion. hair_sim_load() has created the buffers.
@@ -270,7 +271,7 @@ static void serialize_wind_coupling(struct hair_serializer* s, struct hair_wind_
     int own = fluid->gl && cells == fluid->desc.cells && side == fluid->desc.side;
     size_t size = 12 * (size_t)(cells + 1) * (cells + 1) * (cells + 1);
     if (own && !s->result) hair_serialize_buffer(s, "air", fluid->velocity[fluid->now].buffer, size);
-    if (!own) hair_serialize_skipped(s, "air", size);
+    if (!own) hair_serialize_skipped(s, "air", size, HAIR_MAX_STATE);
     if (s->read) fluid->is_reset = !own;
     if (!own) wind_coupling->substeps_done = 0;
 }

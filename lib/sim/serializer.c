@@ -99,12 +99,12 @@ void hair_serialize_vec4(struct hair_serializer* s, const char* name, hair_vec4*
     for (int k = 0; k < 4; ++k) hair_serialize_float(s, name, number[k], max);
 }
 
-void hair_serialize_skipped(struct hair_serializer* s, const char* name, size_t size)
+void hair_serialize_skipped(struct hair_serializer* s, const char* name, size_t size, double max)
 {
     HAIR_ASSERT(size % 4 == 0);
     for (size_t i = 0; i < size && !s->result; i += 4) {
         float number = 0;
-        hair_serialize_float(s, name, &number, HAIR_MAX_STATE);
+        hair_serialize_float(s, name, &number, max);
     }
 }
 
@@ -126,6 +126,12 @@ static void add_buffer(struct hair_serializer* s, GLuint buffer, size_t size)
 
 void hair_serialize_buffer(struct hair_serializer* s, const char* name, GLuint buffer, size_t size)
 {
+    hair_serialize_buffer_within(s, name, buffer, size, HAIR_MAX_STATE);
+}
+
+void hair_serialize_buffer_within(struct hair_serializer* s, const char* name, GLuint buffer, size_t size,
+                                  double max)
+{
     HAIR_ASSERT(size % 4 == 0);
     size_t end = s->at + size;
     if (!buffer) return;
@@ -141,7 +147,7 @@ void hair_serialize_buffer(struct hair_serializer* s, const char* name, GLuint b
         while (s->at < end && !s->result) {
             float number = 0;
             size_t at = s->at;
-            hair_serialize_float(s, name, &number, HAIR_MAX_STATE);
+            hair_serialize_float(s, name, &number, max);
             if (!s->result) memcpy(s->native + at, &number, sizeof number);
         }
     }

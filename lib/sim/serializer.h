@@ -8,6 +8,7 @@
 
 // Maximum of any number in a buffer. A solver itself resets hair that is too far.
 #define HAIR_MAX_STATE 1e9
+#define HAIR_MAX_FORCE 1e15 // Maximum force or turn of a segment, which stiff hair reaches.
 #define HAIR_SERIALIZER_NEW UINT32_MAX // Name of a buffer that is read before it is created.
 #define HAIR_SERIALIZER_BUFFERS 13 // Maximum number of buffers of a state.
 
@@ -45,11 +46,14 @@ void hair_serialize_same(struct hair_serializer* c, const char* name, double val
 
 // Serialize a buffer of floats, whatever they mean to a solver. A buffer of 0 is skipped.
 void hair_serialize_buffer(struct hair_serializer* c, const char* name, GLuint buffer, size_t size);
+// Serialize a buffer whose numbers are in [-max, max].
+void hair_serialize_buffer_within(struct hair_serializer* s, const char* name, GLuint buffer, size_t size,
+                                  double max);
 
 // Convert `size` bytes of floats from native byte order in place.
 void hair_serialize_native(unsigned char* bytes, size_t size);
 
 // Serialize `size` bytes of floats that the instance has no buffer for.
-void hair_serialize_skipped(struct hair_serializer* c, const char* name, size_t size);
+void hair_serialize_skipped(struct hair_serializer* c, const char* name, size_t size, double max);
 
 #endif
