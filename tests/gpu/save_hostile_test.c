@@ -332,7 +332,7 @@ static void load_extremes(struct hair_test* test, int way)
                 hair_write_double(blob.bytes + POSES + 40 * p + 8 * k, p == 3 ? 1e9 : (double)sign * 1e12);
         for (size_t at = COLLIDERS + 2 * (4 + 2 * COLLIDER_BYTES) + pins; at < blob.size - 8 - SLEEP; at += 4)
             if (at != beat && at != flag) {
-                float max = at > flag && at < beat - 4 ? 1e15f : 1e9f; // Forces of segments are great.
+                float max = at > flag && at < beat - 4 ? 1e15f : 1e9f;
                 hair_write_float(blob.bytes + at, n == 2 ? 1e-40f : at % 8 ? max : sign * -max);
             }
         assert_true(survives(test, hair, blob));
