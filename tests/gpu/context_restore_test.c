@@ -97,6 +97,8 @@ static void settings_made_after_a_loss_are_kept(void** state)
     group.radius = 2, group.color.enabled = true;
     hair_test_ok(test, hair_set_group_look(f.hair, 1, &group));
     hair_test_ok(test, hair_record_contacts(f.hair, 2));
+    hair_test_ok(test, hair_set_budget(f.context, 20));
+    for (int i = 0; i < 3; ++i) hair_test_ok(test, hair_test_loss_frame(&f, 1));
     hair_test_trace_lose(1, GL_GUILTY_CONTEXT_RESET);
     hair_test_refused(test, hair_step(f.hair, 1.0f / 60), HAIR_ERROR_CONTEXT_LOST, "lost");
     physics.damping = 5;
@@ -121,7 +123,11 @@ static void settings_made_after_a_loss_are_kept(void** state)
     hair_memory memory = hair_memory_default();
     hair_test_ok(test, hair_get_memory(f.context, &memory));
     assert_int_equal(memory.limit, 123456789);
-    hair_test_ok(test, hair_test_loss_frame(&f, 1));
+    uint32_t number = f.context->budget.timer.number; // Times before the loss are not read.
+    for (int i = 0; i < 5; ++i) hair_test_ok(test, hair_test_loss_frame(&f, 1));
+    assert_true(f.context->budget.ms == 20 && f.context->budget.timer.number > number);
+    assert_true(f.context->budget.timer.read >= number);
+    assert_int_equal(glGetError(), GL_NO_ERROR); // Queries of the lost context mean nothing here.
     hair_test_loss_finish(&f);
 }
 
