@@ -1,6 +1,5 @@
 // chunks.c - memory of the data of uniform buffers. Data is written to mapped memory, and copied to
-// memory of the GPU in one piece. Shaders on an H200 took three times as long to read some mapped
-// buffers.
+// memory of the GPU in one piece.
 #include "lib/gl/recorder.h"
 
 #include <string.h>
