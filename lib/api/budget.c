@@ -5,8 +5,9 @@
 // stays as it is while the GPU time is between SPARE and 1 of the budget.
 #include "lib/api/budget.h"
 
+#include "lib/sim/sim.h"
+
 #include <math.h>
-#include <string.h>
 
 #define MIN_IMPORTANCE 0.05f
 #define SPARE 0.8 // Fraction of the budget below which the importance may grow.
@@ -19,7 +20,6 @@
 #define MIN_ELASTICITY 0.25
 #define SMALL_PIXELS 64.0f // Diameter of hair that has the full substep rate at an importance of 1.
 #define MIN_PIXELS 4.0f // Diameter that unseen hair is taken for.
-#define MIN_RATE 0.0625f // Minimum of hair_physics.substep_rate.
 #define RATE_CHANGES 2 // Instances that may change in a frame, because their rods are made again.
 // Importances below which one half and one quarter of the samples are computed.
 #define HALF_SAMPLES 0.35f
@@ -52,14 +52,16 @@ static void clamp_importance(struct hair_budget* budget)
     if (is_full || budget->target > budget->max_importance) budget->target = budget->max_importance;
 }
 
+static uint32_t find_divisor(float importance)
+{
+    return importance < QUARTER_SAMPLES ? 4 : importance < HALF_SAMPLES ? 2 : 1;
+}
+
 static void choose_samples(struct hair_budget* budget)
 {
-    float by = budget->importance;
-    uint32_t divisor = by < QUARTER_SAMPLES ? 4 : by < HALF_SAMPLES ? 2 : 1;
-    if (divisor < budget->sample_divisor) { // Return only where some importance is to spare.
-        by /= HYSTERESIS;
-        divisor = by < QUARTER_SAMPLES ? 4 : by < HALF_SAMPLES ? 2 : 1;
-    }
+    uint32_t divisor = find_divisor(budget->importance);
+    // Samples return only where some importance is to spare.
+    if (divisor < budget->sample_divisor) divisor = find_divisor(budget->importance / HYSTERESIS);
     budget->sample_divisor = divisor;
 }
 
@@ -136,7 +138,7 @@ float hair_budget_find_rate(struct hair_budget* budget, float pixels, float rate
     float importance = budget->importance;
     float wanted = fmaxf(pixels, MIN_PIXELS) * importance / SMALL_PIXELS;
     hair_budget_note(budget, SMALL_PIXELS / fmaxf(pixels, MIN_PIXELS));
-    wanted = fminf(fmaxf(wanted, MIN_RATE), 1);
+    wanted = fminf(fmaxf(wanted, HAIR_MIN_SUBSTEP_RATE), 1);
     float next = wanted <= 0.5f * rate                               ? 0.5f * rate
                  : rate < 1 && wanted >= fminf(HYSTERESIS * rate, 1) ? 2 * rate
                                                                      : rate;

@@ -5,7 +5,6 @@
 
 #define MAX_DOUBLINGS 3 // A field of 256 voxels then has 32.
 #define MAX_PIXELS 2 // Maximum size of a doubled voxel.
-#define SPARE_VIEWS 60 // Views in turn that need less before the field becomes coarser.
 
 // Write the transform from the world to the box's [0, 1]^3: p becomes (conj(q) (p - head) - lower)
 // * inverse. It is computed in double, because far from the origin the head's position and its
@@ -59,7 +58,7 @@ void hair_choose_field_detail(hair_instance* hair)
     struct hair_field_detail* detail = &hair->field_detail;
     uint32_t wanted = find_doublings(hair);
     bool is_coarser = wanted > detail->doublings;
-    if (is_coarser && hair->field.distance && ++detail->spare_views <= SPARE_VIEWS) return;
+    if (is_coarser && hair->field.distance && !hair_gl_count_spare(&detail->spare_views, true)) return;
     set_doublings(hair, wanted);
 }
 

@@ -2,9 +2,7 @@
 #include "lib/draw/draw.h"
 #include "lib/draw/params.h"
 
-// Buffers are made anew once SPARE_VIEWS views in turn need less than 1 / SHRINKS of the strands.
-#define SHRINKS 3
-#define SPARE_VIEWS 60
+#define SHRINKS 3 // Buffers are made anew once many views in turn need less than a third of them.
 
 static const struct {
     const char* label;
@@ -57,8 +55,8 @@ hair_result hair_draw_ensure_view_cache(struct hair_renderer* renderer, struct h
     struct hair_view_cache* own = &renderer->view_cache;
     uint32_t room = find_room(renderer, plan), segments = renderer->geometry->look.strand.segments;
     hair_result result = HAIR_OK;
-    own->spare = own->room / SHRINKS > room ? own->spare + 1 : 0;
-    if (own->segments != segments || own->room < room || own->spare > SPARE_VIEWS) {
+    bool is_spare = hair_gl_count_spare(&own->spare, own->room / SHRINKS > room);
+    if (own->segments != segments || own->room < room || is_spare) {
         hair_draw_free_view_cache(renderer);
         own->room = room;
         own->segments = segments;

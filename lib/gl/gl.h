@@ -50,6 +50,7 @@ typedef uint64_t hair_gl_pass;
 #define HAIR_GL_UNITS (HAIR_UNIT_STRAND_FACTOR + 1)
 
 #define HAIR_GL_DISPATCH_MS 1.9 // hair_gl.dispatch_ms, ms. The limit is 2 ms.
+#define HAIR_GL_SPARE_USES 60 // Uses that memory of much more than they need is kept for.
 #define HAIR_GL_TIMER_DEPTH 4 // Runs of a pass that may be in flight while the next is timed.
 
 struct hair_gl_timer {
@@ -316,6 +317,14 @@ hair_result hair_gl_check_capture(const struct hair_gl* gl, const char* name);
 // Begin transform feedback without rasterisation.
 void hair_gl_begin_capture(struct hair_gl* gl, GLuint framebuffer, struct hair_gl_capture* was);
 void hair_gl_end_capture(struct hair_gl* gl, const struct hair_gl_capture* was);
+
+// Count the uses in sequence that need much less than there is. Return whether there were so many
+// that memory is to be made anew, smaller.
+static inline bool hair_gl_count_spare(uint32_t* uses, bool is_spare)
+{
+    *uses = is_spare ? *uses + 1 : 0;
+    return *uses > HAIR_GL_SPARE_USES;
+}
 
 // texture_target.c --------------------------------------------------------------------------------
 

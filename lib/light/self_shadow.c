@@ -5,9 +5,7 @@
 #include <string.h>
 
 #define MIN_NODES 4096u // Minimum capacity of the grid, a multiple of 4 times HAIR_GROUP_SIZE.
-// A grid is made anew once SPARE_VIEWS views in turn need less than 1 / SHRINKS of its capacity.
-#define SHRINKS 4
-#define SPARE_VIEWS 60
+#define SHRINKS 4 // A grid is made anew once many views in turn need less than a fourth of it.
 #define NODE_GROUPS 4096 // Number of work groups. Their threads loop over all nodes of the grid.
 // Work of a dispatch. A GPU must not take long for one. `hair-bench dispatch` measures them.
 #define SPLAT_SEGMENTS (1u << 21) // Segments of a dispatch that fills the grid.
@@ -31,8 +29,8 @@ hair_result hair_lighting_ensure_grid(struct hair_lighting* lighting, uint32_t n
     HAIR_ASSERT(0 < nodes && nodes <= HAIR_DENSITY_NODES && 0 < each && each <= 1 + HAIR_LIGHTS);
     uint32_t room = MIN_NODES;
     while (room < nodes) room *= 2;
-    own->spare = own->room / SHRINKS > room ? own->spare + 1 : 0;
-    if (own->room < nodes || own->spare > SPARE_VIEWS) hair_gl_free_array(gl, &own->density, NULL);
+    bool is_spare = hair_gl_count_spare(&own->spare, own->room / SHRINKS > room);
+    if (own->room < nodes || is_spare) hair_gl_free_array(gl, &own->density, NULL);
     if (own->density && own->each == each) return HAIR_OK;
     hair_gl_free_array(gl, &own->nodes, NULL);
     hair_gl_free_array(gl, &own->density, NULL);

@@ -11,7 +11,6 @@
 // Maximum vertices whose rows fit into a work group's memory. See glsl/sim/mixed_rows.glsl.
 #define ROWS_IN_GROUP 64
 
-#define MIN_RATE 0.0625f // Minimum of hair_physics.substep_rate.
 #define UNSEEN 0.25 // Time without a view after which hair counts as unseen, s.
 
 // Divisor of the accurate solver's own substep once there are colliders. From 1.5 on, no substep
@@ -54,7 +53,7 @@ static hair_result upload_reduction(struct hair_sim* sim, const hair_vec4* reduc
 static uint32_t find_substep_scale(const struct hair_sim* sim)
 {
     uint32_t substep_scale = 1;
-    float rate = fmaxf(sim->physics.substep_rate * sim->rate_factor, MIN_RATE);
+    float rate = fmaxf(sim->physics.substep_rate * sim->rate_factor, HAIR_MIN_SUBSTEP_RATE);
     if (sim->unseen >= UNSEEN) rate = fminf(rate, sim->physics.offscreen_substep_rate);
     HAIR_ASSERT(rate > 0);
     while (2 * (float)substep_scale * rate <= 1) substep_scale *= 2;

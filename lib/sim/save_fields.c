@@ -23,7 +23,7 @@ _Static_assert(
 #define MAX_CELLS 1e16 // Maximum distance of the fluid's box from the world's origin, in cells.
 #define MAX_QUIET_TIME 1e9 // s
 #define MAX_BLEND 11 // Maximum of hair_target_blend.blend_time and two substeps, s.
-#define MAX_SUBSTEP_SCALE 16 // 1 / the minimum of hair_physics.substep_rate.
+#define MAX_SUBSTEP_SCALE (uint32_t)(1 / HAIR_MIN_SUBSTEP_RATE)
 // Number of words of a collider before the hash of its collision mesh and its key.
 #define COLLIDER_WORDS 14
 #define COLLIDER_BYTES (4 * COLLIDER_WORDS + 16)

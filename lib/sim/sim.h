@@ -25,6 +25,7 @@
 #include <stdbool.h>
 
 #define HAIR_SIM_LOOSE 1.05f // Multiple of the reach that stretched hair may have.
+#define HAIR_MIN_SUBSTEP_RATE 0.0625f // Minimum of hair_physics.substep_rate.
 #define HAIR_CONTACT_SLACK 0.1f // Maximum of half the way of a vertex in a substep, m.
 
 // Collision data of instances with collision meshes or with more than HAIR_FEW_COLLIDERS colliders.
