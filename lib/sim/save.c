@@ -53,10 +53,13 @@ static hair_result upload_state(const struct hair_serializer* s)
 }
 
 // Load a state whose frame has been checked, into a simulation that has all buffers of the state.
-static hair_result load_state(struct hair_sim* sim, const unsigned char* bytes, size_t size, bool skinned)
+// `fluid` replaces the fluid of the wind, if its gl is not NULL.
+static hair_result load_state(struct hair_sim* sim, const unsigned char* bytes, size_t size, bool skinned,
+                              const struct hair_fluid* fluid)
 {
     const hair_host* host = &sim->gl->host;
     struct hair_sim own = *sim; // Copy that receives the loaded state.
+    hair_wind_coupling_replace(&own.wind_coupling, fluid);
     struct hair_loaded loaded = {0};
     struct hair_serializer s = {
         .host = host, .gl = sim->gl, .read = bytes, .at = HEADER, .end = size - TRAILER};
@@ -94,6 +97,7 @@ static hair_result load_state(struct hair_sim* sim, const unsigned char* bytes, 
     }
     hair_colliders_free(host, &sim->colliders);
     hair_sleep_load(&own, &sim->sleep);
+    if (fluid->gl) hair_fluid_destroy(&sim->wind_coupling.fluid);
     *sim = own;
     sim->colliders = colliders;
     hair_pins_adopt(sim, loaded.resolved_pin, loaded.pins);
@@ -110,9 +114,8 @@ hair_result hair_sim_load(struct hair_sim* sim, const unsigned char* bytes, size
 {
     const hair_host* host = &sim->gl->host;
     HAIR_TRY(hair_save_check(host, bytes, size));
-    // The state may contain accelerations of the hair-hair grid and the air of a fluid.
+    // The state may contain accelerations of the hair-hair grid.
     HAIR_TRY(hair_sim_ensure_hair_grid(sim));
-    HAIR_TRY(hair_wind_coupling_ensure(sim));
     uint32_t marks = size >= HEADER + 4 + TRAILER ? hair_read_u32(bytes + HEADER) : 0;
     bool skinned = marks & HAIR_SAVE_SKINNED, has_targets = marks & HAIR_SAVE_TARGETS;
     if (skinned && !sim->scalp_motion.root_bindings)
@@ -122,7 +125,10 @@ hair_result hair_sim_load(struct hair_sim* sim, const unsigned char* bytes, size
     bool was_skinned = hair_scalp_motion_is_on(sim), had_targets = hair_targets_are_on(sim);
     if (skinned) HAIR_TRY(hair_scalp_motion_create(sim));
     hair_result result = has_targets ? hair_targets_create(sim) : HAIR_OK;
-    if (!result) result = load_state(sim, bytes, size, skinned);
+    struct hair_fluid fluid = {0}; // The state may contain the air of a fluid.
+    if (!result) result = hair_wind_coupling_prepare(sim, &fluid);
+    if (!result) result = load_state(sim, bytes, size, skinned, &fluid);
+    if (result) hair_fluid_destroy(&fluid);
     if (result && skinned && !was_skinned) hair_scalp_motion_undo_create(sim);
     if (result ? has_targets && !had_targets : !has_targets) hair_targets_end(sim);
     return result;

@@ -81,24 +81,35 @@ static hair_result ensure_parts(struct hair_sim* sim, struct hair_fluid* fluid)
     return hair_fluid_make_room(fluid, sim->colliders.current.count);
 }
 
-hair_result hair_wind_coupling_ensure(struct hair_sim* sim)
+hair_result hair_wind_coupling_prepare(struct hair_sim* sim, struct hair_fluid* other)
 {
-    struct hair_fluid *fluid = &sim->wind_coupling.fluid, made;
+    struct hair_fluid* fluid = &sim->wind_coupling.fluid;
+    *other = (struct hair_fluid){0};
     if (!hair_wind_coupling_is_on(sim)) return HAIR_OK;
     struct hair_fluid_desc desc = desc_of(sim), was = fluid->desc;
     if (fluid->gl && was.cells == desc.cells && was.side == desc.side && was.method == desc.method) {
         fluid->desc.cycles = desc.cycles;
         return ensure_parts(sim, fluid);
     }
-    HAIR_TRY(hair_fluid_create(&made, sim->gl, &desc));
-    hair_result result = ensure_parts(sim, &made);
-    if (result) {
-        hair_fluid_destroy(&made);
-        return result;
-    }
-    hair_fluid_destroy(fluid);
-    *fluid = made;
-    sim->wind_coupling.substeps_done = 0;
+    HAIR_TRY(hair_fluid_create(other, sim->gl, &desc));
+    hair_result result = ensure_parts(sim, other);
+    if (result) hair_fluid_destroy(other);
+    return result;
+}
+
+void hair_wind_coupling_replace(struct hair_wind_coupling* wind_coupling, const struct hair_fluid* other)
+{
+    if (!other->gl) return;
+    wind_coupling->fluid = *other;
+    wind_coupling->substeps_done = 0;
+}
+
+hair_result hair_wind_coupling_ensure(struct hair_sim* sim)
+{
+    struct hair_fluid other;
+    HAIR_TRY(hair_wind_coupling_prepare(sim, &other));
+    if (other.gl) hair_fluid_destroy(&sim->wind_coupling.fluid);
+    hair_wind_coupling_replace(&sim->wind_coupling, &other);
     return HAIR_OK;
 }
 

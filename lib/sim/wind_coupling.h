@@ -24,8 +24,13 @@ struct hair_sim;
 
 bool hair_wind_coupling_is_on(const struct hair_sim* sim);
 hair_result hair_wind_coupling_ensure_programs(struct hair_sim* sim);
-// Create what the wind needs. A fluid of another size replaces the fluid and its past. On failure
-// the fluid is as it was.
+// Create what the wind needs. If the wind needs another fluid, create the fluid in `other`.
+// Otherwise other->gl is NULL. The present fluid keeps its past.
+hair_result hair_wind_coupling_prepare(struct hair_sim* sim, struct hair_fluid* other);
+// Use a prepared fluid, if there is one. The caller destroys the fluid that was used before.
+void hair_wind_coupling_replace(struct hair_wind_coupling* wind_coupling, const struct hair_fluid* other);
+// Create what the wind needs, and replace a fluid of another size together with its past. On
+// failure the fluid is as it was.
 hair_result hair_wind_coupling_ensure(struct hair_sim* sim);
 // Free what depends on the lengths of guides, which the next step makes again.
 void hair_wind_coupling_free_hair(struct hair_sim* sim);

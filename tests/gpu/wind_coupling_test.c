@@ -1,6 +1,7 @@
 // wind_coupling_test.c - hair in a fluid that flows round colliders. Hair behind a ball is
 // sheltered at any frame rate. Without the fluid, no program runs and no memory is kept.
 #include "tests/support/live_hair.h"
+#include "tests/support/motion.h"
 #include "tests/support/passes.h"
 
 #include <math.h>
@@ -203,6 +204,41 @@ static void saved_fluid_wind_continues_bit_for_bit(void** state)
     hair_test_die(&living), hair_test_die(&other);
 }
 
+// Load the state of another haircut after the wind has been set. Check that the fluid is as it was.
+static void check_refused_load(struct hair_test_living* living, const hair_wind* wind)
+{
+    struct hair_test_strands strands = hair_test_straight(VERTICES, hair_v3(0, 0, 0), hair_v3(0, 1, 0), 0.1f);
+    hair_desc desc = hair_test_rods(HAIR_SOLVER_DIRECT, HAIR_THREAD_MAPPING_AUTO, 0, &living->physics);
+    struct hair_test_living other;
+    hair_test_live(living->test, &strands, &desc, &other);
+    hair_test_strands_free(&strands);
+    struct hair_test_blob wrong = hair_test_save(living->test, other.hair);
+    struct hair_test_blob before = hair_test_save(living->test, living->hair);
+    hair_test_wind_coupling(living, wind);
+    hair_test_refused(living->test, hair_load(living->hair, wrong.bytes, wrong.size), HAIR_ERROR_ARGUMENT,
+                      "its number of guides is 1, the instance's 5");
+    struct hair_test_blob after = hair_test_save(living->test, living->hair);
+    assert_int_equal(after.size, before.size);
+    assert_memory_equal(after.bytes, before.bytes, before.size);
+    free(wrong.bytes), free(before.bytes), free(after.bytes);
+    hair_test_die(&other);
+}
+
+static void refused_load_keeps_the_air(void** state)
+{
+    struct hair_test_living living;
+    begin(*state, HAIR_SOLVER_DIRECT, &living);
+    hair_wind wind = blowing(4, HAIR_WIND_FLUID);
+    for (int i = 0; i < 3; ++i) {
+        wind.fluid.resolution = i == 1 ? 32 : 16;
+        hair_test_wind_coupling(&living, &wind);
+        hair_test_wait(&living, 2);
+        wind.fluid.resolution = i == 1 ? 16 : 32;
+        check_refused_load(&living, i == 2 ? NULL : &wind);
+    }
+    hair_test_die(&living);
+}
+
 int main(void)
 {
     if (hair_test_skips()) return 0;
@@ -212,6 +248,7 @@ int main(void)
         HAIR_TEST(fluid_wind_costs_nothing_when_off),
         HAIR_TEST(hair_stays_finite_in_any_wind),
         HAIR_TEST(saved_fluid_wind_continues_bit_for_bit),
+        HAIR_TEST(refused_load_keeps_the_air),
     };
     return cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);
 }
