@@ -152,6 +152,7 @@ hair_result hair_gl_load(struct hair_gl* gl, const hair_context_desc* desc)
                                 strstr(renderer, "SwiftShader"));
     gl->records = !gl->software;
     gl->dispatch_ms = HAIR_GL_DISPATCH_MS;
+    gl->draw_vertices = HAIR_GL_DRAW_VERTICES;
     gl->GetIntegerv(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &gl->max_storage_bytes);
     gl->GetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &gl->max_buffer_texels);
     gl->compiles_late = gl->software != 0;

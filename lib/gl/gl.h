@@ -50,6 +50,8 @@ typedef uint64_t hair_gl_pass;
 #define HAIR_GL_UNITS (HAIR_UNIT_STRAND_FACTOR + 1)
 
 #define HAIR_GL_DISPATCH_MS 1.9 // hair_gl.dispatch_ms, ms. The limit is 2 ms.
+// hair_gl.draw_vertices. A GPU takes less than 2 ms for them. `hair-bench dispatch` measures draws.
+#define HAIR_GL_DRAW_VERTICES (1u << 17)
 #define HAIR_GL_SPARE_USES 60 // Uses that memory of much more than they need is kept for.
 #define HAIR_GL_TIMER_DEPTH 4 // Runs of a pass that may be in flight while the next is timed.
 
@@ -166,8 +168,9 @@ struct hair_gl {
     bool is_lost; // True once the driver has said that the OpenGL context is lost.
     // Transform feedback object that is bound in place of one that is active. 0 until needed.
     GLuint idle_feedback;
-    // Maximum vertices that one tessellated draw may generate. UINT32_MAX if unlimited.
+    // Maximum vertices that the driver handles in one tessellated draw. UINT32_MAX if unlimited.
     uint32_t max_draw_vertices;
+    uint32_t draw_vertices; // Maximum vertices of a draw, because of its time.
     // Outer tessellation level that holds the number of isolines, 0. It is 1 on a driver that swaps
     // the levels.
     int lines_level;

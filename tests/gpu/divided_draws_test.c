@@ -1,0 +1,62 @@
+// divided_draws_test.c - what a GPU takes long to draw is divided into many draws, which draw the
+// same bits.
+#include "tests/support/scene.h"
+#include "tests/support/trace.h"
+
+#define SIDE 64 // pixels
+
+// Draw with at most `max` vertices in a draw. Return the number of draws.
+static uint32_t draw_in_parts(const struct hair_test_scene* scene, const hair_view* view, uint32_t max,
+                              float* pixels)
+{
+    scene->context->gl.draw_vertices = max;
+    hair_test_trace_clear();
+    hair_test_draw(scene, view, SIDE, SIDE, view->primitive == HAIR_PRIMITIVE_LINES ? 0 : 4, pixels, NULL);
+    return hair_test_trace_count("glDraw") + hair_test_trace_count("glMultiDraw");
+}
+
+static struct hair_test_scene start(struct hair_test* test, uint32_t segments)
+{
+    struct hair_test_scene scene = hair_test_scene_make(test, hair_test_trace_proc);
+    struct hair_test_handmade groom = hair_test_handmade_default();
+    hair_desc desc = hair_desc_default();
+    hair_look look = hair_look_default();
+    groom.followers = 1000;
+    look.strand.segments = segments;
+    desc.look = &look;
+    hair_test_scene_add(&scene, &groom, &desc);
+    return scene;
+}
+
+static void check_divided(const struct hair_test_scene* scene, const hair_view* view)
+{
+    static float whole[4 * SIDE * SIDE], divided[4 * SIDE * SIDE];
+    uint32_t count = draw_in_parts(scene, view, UINT32_MAX, whole);
+    uint32_t more = draw_in_parts(scene, view, 1, divided);
+    double alpha = hair_test_mean_alpha(whole, sizeof whole / sizeof *whole);
+    print_message("    path %d, primitive %d: %u draws, divided %u, mean alpha %.4f\n", view->render_path,
+                  view->primitive, count, more, alpha);
+    assert_true(more >= 8 && more >= 4 * count && alpha > 0.01);
+    assert_memory_equal(whole, divided, sizeof whole);
+}
+
+static void divided_draws_draw_the_same_bits(void** state)
+{
+    static const hair_render_path paths[] = {HAIR_RENDER_PATH_TESSELLATION};
+    struct hair_test_scene scene = start(*state, 20);
+    for (size_t i = 0; i < sizeof paths / sizeof *paths; ++i)
+        for (int primitive = 0; primitive < 2; ++primitive) {
+            hair_view view = hair_test_view_by(paths[i]);
+            hair_test_set_orthographic(&view, 4, 0.5f, 0);
+            view.primitive = (hair_primitive)primitive;
+            check_divided(&scene, &view);
+        }
+    hair_test_scene_free(&scene);
+}
+
+int main(void)
+{
+    if (hair_test_skips()) return 0;
+    const struct CMUnitTest tests[] = {HAIR_TEST(divided_draws_draw_the_same_bits)};
+    return cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);
+}
