@@ -11,7 +11,7 @@ layout(std430, binding = HAIR_BIND_STRAND) writeonly restrict buffer strand_buff
 void main()
 {
     uint number = hair_group();
-    if (number >= uint(textureSize(patch_texture)) / HAIR_PATCH_TEXELS) return;
+    if (number >= count_patches()) return;
     hair_patch_lines lines = find_lines(number);
     for (uint i = gl_LocalInvocationID.x; i < lines.strands; i += HAIR_GROUP_SIZE) {
         float fraction = i + 1u == lines.strands ? lines.fading : 1.0;

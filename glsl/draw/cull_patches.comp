@@ -11,7 +11,7 @@ layout(binding = HAIR_UNIT_REPAIR) uniform samplerBuffer repair_texture;
 #endif
 
 layout(std430, binding = HAIR_BIND_GUIDE_BOUNDS) readonly restrict buffer guide_bounds_buffer { vec4 box[]; };
-layout(std430, binding = HAIR_BIND_OCCLUSION_PATCH) restrict buffer occlusion_patch_buffer
+layout(std430, binding = HAIR_BIND_STORED_PATCH) restrict buffer patch_buffer
 {
     hair_patch patches[];
 };

@@ -10,7 +10,10 @@
 #endif
 layout(local_size_x = HAIR_GROUP_SIZE) in;
 
-layout(binding = HAIR_UNIT_STRAND) uniform usamplerBuffer strand_texture;
+layout(std430, binding = HAIR_BIND_LISTED_STRAND) readonly restrict buffer strand_buffer
+{
+    hair_strand strand[];
+};
 layout(std430, binding = HAIR_BIND_LIST_COMMAND) readonly restrict buffer command_buffer
 {
     hair_draw_command command[];
@@ -58,10 +61,9 @@ void main()
          each = command[HAIR_EXPAND_VIEW_COMMAND].each;
     uint place = i / each, k = i % each, at = place * (draw.segments + 1u) + k;
     if (place >= command[HAIR_EXPAND_VIEW_COMMAND].strands) return;
-    uvec4 record = texelFetch(strand_texture, int(place));
-    vec3  own    = uintBitsToFloat(record.yzw); // width, widened and whole of hair_strand.
+    hair_strand own = strand[place];
     // Vertices beyond the last segment of a strand lie at its tip.
-    strand_vertex v = strand_at(record.x, place_of(k, own.z), own.x, own.y);
+    strand_vertex v = strand_at(own.follower, place_of(k, own.whole), own.width, own.widened);
     write_place(at, v);
 #ifndef HAIR_DEPTH
     shaded[at] = pack_color(v.color);

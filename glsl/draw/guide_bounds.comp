@@ -2,7 +2,7 @@
 // read every vertex. One thread per part.
 #version 450 core
 #include "draw/hiz.glsl"
-#include "strands/position_texture.glsl"
+#include "strands/guide_positions.glsl"
 
 layout(std430, binding = HAIR_BIND_GUIDE_BOUNDS) writeonly restrict buffer guide_bounds_buffer
 {
@@ -19,7 +19,7 @@ void main()
          to = ((part + 1u) * segments + HAIR_OCCLUSION_PARTS - 1u) / HAIR_OCCLUSION_PARTS;
     vec4 lower = vec4(NOWHERE), upper = vec4(-NOWHERE);
     for (uint k = from; k <= to; ++k) {
-        vec4 at = texelFetch(position_texture, int(guide * draw.smooth_vertices + k));
+        vec4 at = fetch_position(int(guide * draw.smooth_vertices + k));
         lower   = min(lower, at);
         upper   = max(upper, at);
     }

@@ -1,11 +1,23 @@
 // raster.glsl - ribbons of segments in the window, for the compute rasteriser. They lie between
 // vertices of the vertex cache or, with levels of detail, between per-view vertices. Their shape is
 // that of ribbon.geom.
-#include "draw/vertex_cache.glsl"
+#include "draw_params.glsl"
 #include "draw/ribbon.glsl"
+#include "strands/packed.glsl"
 
 layout(std140, binding = HAIR_BIND_RASTER) uniform raster_buffer { hair_raster_params raster; };
-layout(binding = HAIR_UNIT_STRAND) uniform usamplerBuffer strand_texture;
+layout(std430, binding = HAIR_BIND_LISTED_STRAND) readonly restrict buffer strand_buffer
+{
+    hair_strand strand[];
+};
+layout(std430, binding = HAIR_BIND_RIBBON_POSITION) readonly restrict buffer position_buffer
+{
+    vec4 ribbon_position[];
+};
+layout(std430, binding = HAIR_BIND_RIBBON_TANGENT) readonly restrict buffer tangent_buffer
+{
+    uvec2 ribbon_tangent[];
+};
 
 // A ribbon in the window, times w. It has a middle at both ends, and vectors from there to a side.
 struct raster_ribbon {
@@ -18,14 +30,14 @@ struct raster_ribbon {
 int vertex_of(uint segment, out float width, out bool there)
 {
     uint  each   = draw.segments, k = segment % each;
-    uvec4 record = texelFetch(strand_texture, int(segment / each)); // hair_strand
-    there        = float(k) < uintBitsToFloat(record.w);
+    hair_strand own = strand[segment / each];
+    there           = float(k) < own.whole;
 #ifdef HAIR_WIDENED
     width = 1.0;
     return int(segment / each * (each + 1u) + k);
 #else
-    width = uintBitsToFloat(record.y);
-    return int(record.x * (each + 1u) + k);
+    width = own.width;
+    return int(own.follower * (each + 1u) + k);
 #endif
 }
 
@@ -45,10 +57,10 @@ raster_ribbon ribbon_of(uint segment)
     bool          there;
     int           at = vertex_of(segment, width, there);
     for (int end = 0; end < 2; ++end) {
-        vec4 strand   = texelFetch(cached_position_texture, at + end);
-        vec3 tangent  = texelFetch(cached_tangent_texture, at + end).xyz * 2.0 - 1.0;
-        r.middle[end] = raster.to_window * vec4(strand.xyz, 1.0);
-        r.side[end]   = raster.to_window * vec4(side_of(vec4(strand.xyz, strand.w * width), tangent), 0.0);
+        vec4 vertex   = ribbon_position[at + end];
+        vec3 tangent  = unpack_tangent(ribbon_tangent[at + end]);
+        r.middle[end] = raster.to_window * vec4(vertex.xyz, 1.0);
+        r.side[end]   = raster.to_window * vec4(side_of(vec4(vertex.xyz, vertex.w * width), tangent), 0.0);
     }
     vec4  a = r.middle[0], b = r.middle[1];
     float min_value = 1e-6 * max(abs(a.w), abs(b.w));

@@ -52,7 +52,7 @@ void write_expand_view_command(uint strands, uint each)
 void main()
 {
     uint i       = gl_LocalInvocationID.x;
-    uint patches = uint(textureSize(patch_texture)) / HAIR_PATCH_TEXELS;
+    uint patches = count_patches();
     uint each    = (patches + HAIR_COUNT_THREADS - 1u) / HAIR_COUNT_THREADS;
     uint first   = min(i * each, patches), end = min(first + each, patches), sum = 0u, longest = 0u;
     for (uint number = first; number < end; ++number) {

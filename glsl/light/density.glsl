@@ -13,10 +13,13 @@
 #include "workgroup.glsl"
 layout(local_size_x = HAIR_GROUP_SIZE) in;
 
-layout(std430, binding = HAIR_BIND_DENSITY) restrict buffer density_buffer { uint density[]; };
-// Minima of x, y and z, then minima of their inverted bits, in the encoding of
-// light/float_key.glsl.
-layout(std430, binding = HAIR_BIND_DENSITY_BOX) restrict buffer box_buffer { uint box[6]; };
+layout(std430, binding = HAIR_BIND_DENSITY) restrict buffer density_buffer
+{
+    // Minima of x, y and z, then minima of their inverted bits, in the encoding of
+    // light/float_key.glsl.
+    uint box[HAIR_DENSITY_FIRST];
+    uint density[];
+};
 layout(std430, binding = HAIR_BIND_DENSITY_STRAND) readonly restrict buffer strand_buffer
 {
     vec4 strand_vertex[];

@@ -62,7 +62,7 @@ void main()
 {
     uint groups = (draw.chunks + HAIR_SPLAT_ROUNDS - 1u) / HAIR_SPLAT_ROUNDS;
     uint group = hair_group() % groups, number = hair_group() / groups;
-    if (number >= uint(textureSize(patch_texture)) / HAIR_PATCH_TEXELS) return;
+    if (number >= count_patches()) return;
     hair_patch_lines lines = find_lines(number);
     density_grid     grid  = find_grid();
     uint             count = lines.strands * draw.segments, each = (count + groups - 1u) / groups;

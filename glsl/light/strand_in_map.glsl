@@ -39,16 +39,17 @@ float texels_per_metre(uint map, vec3 position)
 // the level of detail of this view.
 void find_widths(uint patch_, float widened)
 {
-    int  record = int(patch_) * HAIR_PATCH_TEXELS;
-    uint guide  = texelFetch(patch_texture, record).w;
-    float importance = uintBitsToFloat(texelFetch(patch_texture, record + 3).z);
+    hair_patch own = fetch_patch(patch_);
     for (uint i = 0u; i < draw.lights; ++i) {
         uint map = map_of(i);
         if (map >= uint(HAIR_SHADOW_MAPS)) continue;
         float scale = 0.0;
-        for (uint k = 0u; k < 3u && draw.pixels_per_unit > 0.0; ++k)
-            scale = max(scale, texels_per_metre(map, guide_at(guide, k * (draw.smooth_vertices - 1u) / 2u)));
-        widened_in[map] = draw.pixels_per_unit > 0.0 ? widening_of(fraction_at(scale * importance)) : widened;
+        for (uint k = 0u; k < 3u && draw.pixels_per_unit > 0.0; ++k) {
+            uint along = k * (draw.smooth_vertices - 1u) / 2u;
+            scale      = max(scale, texels_per_metre(map, guide_at(own.guide, along)));
+        }
+        widened_in[map] =
+            draw.pixels_per_unit > 0.0 ? widening_of(fraction_at(scale * own.importance)) : widened;
     }
 }
 

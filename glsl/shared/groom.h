@@ -76,7 +76,7 @@ struct hair_patch {
     hair_vec4 map_density;   // Factor of the density by each set of maps.
     hair_vec4 map_thickness; // Factor of the followers' radius by each set of maps.
     float     reach;         // Maximum distance of any follower from the guide's root, m.
-    float     length;        // Length of its longest follower, m.
+    float     longest;       // Length of its longest follower, m.
     float     importance;    // Factor of the size on the screen.
     hair_uint occluded;        // 1 if the last occlusion culling found the patch occluded.
 };

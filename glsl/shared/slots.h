@@ -109,11 +109,11 @@
 // uvec2[] per follower and control point of strands/repair.glsl. Four halves.
 #define HAIR_BIND_REPAIR 4
 #define HAIR_BIND_LIST 5 // uint[]. Two counts, used alternately, then the followers to be repaired.
-// Read-only buffers of hit.comp with HAIR_HIT_GROUP and of the pass that writes the vertex cache.
-// They have these in place of textures of guides and followers.
-#define HAIR_BIND_STORED_POSITION 0 // hair_vec4[] per smoothed vertex, as at HAIR_BIND_POSITION.
+// Read-only buffers of compute passes with HAIR_STORED, which have these in place of textures.
+#define HAIR_BIND_STORED_FOLLOWER 0 // hair_follower[] per follower.
 #define HAIR_BIND_STORED_FRAME 1    // uvec2[] per smoothed vertex, as at HAIR_BIND_FRAME.
-#define HAIR_BIND_STORED_FOLLOWER 6 // hair_follower[] per follower.
+#define HAIR_BIND_STORED_PATCH 2    // hair_patch[]. Occlusion culling writes this buffer.
+#define HAIR_BIND_STORED_POSITION 7 // hair_vec4[] per smoothed vertex, as at HAIR_BIND_POSITION.
 
 // Buffers of the vertex cache of followers.
 
@@ -143,6 +143,9 @@
 // writes clip-space positions to HAIR_BIND_CACHED_POSITION: one hair_vec4 per side of a ribbon
 // vertex, or one per line vertex.
 #define HAIR_BIND_LIST_COMMAND 3  // hair_draw_command[HAIR_COMMANDS]. Read-only.
+// hair_strand[] of the strand list, in place of HAIR_BIND_STORED_PATCH. Read-only. The compute
+// rasteriser has it too.
+#define HAIR_BIND_LISTED_STRAND 2
 // Additional buffers of the passes that sort the segments of listed strands.
 #define HAIR_BIND_HISTOGRAM 0 // uint[HAIR_SORT_BUCKETS]. Depth histogram, later its prefix sum.
 #define HAIR_BIND_SORTED_SEGMENTS 1 // uvec2[] per segment. Indices of its two vertices.
@@ -154,10 +157,14 @@
 // Depth-only passes have a uint[] with y alone.
 #define HAIR_BIND_NEAREST 0
 #define HAIR_BIND_TILE 1    // uint[] per tile. 1 if the tile contains hair.
+// Vertices of ribbons, as at HAIR_BIND_CACHED_POSITION and HAIR_BIND_CACHED_TANGENT. Read-only.
+#define HAIR_BIND_RIBBON_POSITION 6
+#define HAIR_BIND_RIBBON_TANGENT 7
 // Buffers of the self-shadowing passes.
-#define HAIR_BIND_DENSITY 0        // uint[] per node of the density grid. Amount of hair.
-// uint[6]. Bounding box of all hair, in the encoding of light/float_key.glsl.
-#define HAIR_BIND_DENSITY_BOX 1
+// uint[HAIR_DENSITY_FIRST]. Bounding box of all hair, in the encoding of light/float_key.glsl.
+// uint[] per node of the density grid follows. Amount of hair.
+#define HAIR_BIND_DENSITY 6
+#define HAIR_DENSITY_FIRST 8 // The box has six numbers.
 // float[] per node. Visible fraction of the sky, then the strands met on the way to each light.
 #define HAIR_BIND_DENSITY_LIGHT 3
 #define HAIR_BIND_DENSITY_STRAND 4 // hair_vec4[] as at HAIR_BIND_CACHED_POSITION. Read-only.
@@ -168,10 +175,9 @@
 // Buffers of occlusion culling against the application's depth.
 
 // float[]. Hi-Z: farthest depth of every texel of every level. See glsl/draw/hiz.glsl.
-#define HAIR_BIND_HIZ 0
+#define HAIR_BIND_HIZ 3
 // hair_vec4[] per guide and part. Lower corner, then upper corner, m.
-#define HAIR_BIND_GUIDE_BOUNDS 1
-#define HAIR_BIND_OCCLUSION_PATCH 2 // hair_patch[]
+#define HAIR_BIND_GUIDE_BOUNDS 4
 
 // Buffers of the fluid passes. They read what they do not write as textures.
 

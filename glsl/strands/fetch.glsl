@@ -1,18 +1,13 @@
-// fetch.glsl - reads of smoothed guides and followers from textures. With HAIR_STORED they come
-// from storage buffers, which GPUs read several times as fast. OpenGL does not guarantee storage
-// buffers to the stages that draw.
+// fetch.glsl - reads of smoothed guides and followers, from storage buffers in compute shaders and
+// from textures in other stages.
 #include "shared.h"
-#include "strands/position_texture.glsl"
+#include "strands/guide_positions.glsl"
 #include "strands/packed_frame.glsl"
 
 // It has the shapes of followers too, see hair_follower.
 layout(binding = HAIR_UNIT_FOLLOWER) uniform usamplerBuffer follower_texture;
 
 #ifdef HAIR_STORED
-layout(std430, binding = HAIR_BIND_STORED_POSITION) readonly restrict buffer position_buffer
-{
-    vec4 stored_position[];
-};
 layout(std430, binding = HAIR_BIND_STORED_FRAME) readonly restrict buffer frame_buffer
 {
     uvec2 stored_frame[];
@@ -21,13 +16,11 @@ layout(std430, binding = HAIR_BIND_STORED_FOLLOWER) readonly restrict buffer fol
     hair_follower stored_follower[];
 };
 
-vec4          fetch_position(int at) { return stored_position[at]; }
 vec4          fetch_turn(int at) { return unpack_frame(stored_frame[at]); }
 hair_follower fetch_whole(uint number) { return stored_follower[number]; }
 #else
 layout(binding = HAIR_UNIT_FRAME) uniform usamplerBuffer frame_texture;
 
-vec4 fetch_position(int at) { return texelFetch(position_texture, at); }
 vec4 fetch_turn(int at) { return unpack_frame(texelFetch(frame_texture, at).xy); }
 
 hair_follower fetch_whole(uint number)

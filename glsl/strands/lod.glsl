@@ -3,7 +3,7 @@
 #ifndef HAIR_LOD_GLSL
 #define HAIR_LOD_GLSL
 
-#include "strands/position_texture.glsl"
+#include "strands/guide_positions.glsl"
 
 #define MIN_SEGMENTS 2.0
 #define GIVE 1.1     // Factor that allows for stretch and for followers that leave their guides.
@@ -18,7 +18,7 @@ struct hair_detail {
 
 vec3 guide_at(uint guide, uint sample_)
 {
-    return texelFetch(position_texture, int(guide * draw.smooth_vertices + sample_)).xyz;
+    return fetch_position(int(guide * draw.smooth_vertices + sample_)).xyz;
 }
 
 float pixels_per_metre(vec3 position)
@@ -83,7 +83,7 @@ float compensate(float length_, float segments)
 }
 
 // Return the level of detail of a patch. `patch_` holds the patch's reach, length and importance.
-hair_detail find_detail(uint guide, vec4 patch_)
+hair_detail find_detail(uint guide, vec3 patch_)
 {
     float max_value   = float(draw.segments) * draw.segment_fraction;
     float fraction  = draw.strand_fraction, segments = max(max_value, 1.0);

@@ -8,6 +8,11 @@ uvec2 pack_tangent(vec3 tangent)
     return uvec2(packUnorm2x16(fraction.xy), packUnorm2x16(vec2(fraction.z, 0.0)));
 }
 
+vec3 unpack_tangent(uvec2 numbers)
+{
+    return vec3(unpackUnorm2x16(numbers.x), unpackUnorm2x16(numbers.y).x) * 2.0 - 1.0;
+}
+
 uvec2 pack_color(vec3 color)
 {
     color = min(color, HAIR_MAX_LIGHT);

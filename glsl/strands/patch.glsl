@@ -8,7 +8,27 @@
 
 #include "strands/lod.glsl"
 
+#ifdef HAIR_STORED
+layout(std430, binding = HAIR_BIND_STORED_PATCH) readonly restrict buffer patch_buffer
+{
+    hair_patch stored_patch[];
+};
+
+uint       count_patches() { return uint(stored_patch.length()); }
+hair_patch fetch_patch(uint number) { return stored_patch[number]; }
+#else
 layout(binding = HAIR_UNIT_PATCH) uniform usamplerBuffer patch_texture;
+
+hair_patch fetch_patch(uint number)
+{
+    int   at     = int(number) * HAIR_PATCH_TEXELS;
+    uvec4 record = texelFetch(patch_texture, at), detail = texelFetch(patch_texture, at + 3);
+    return hair_patch(record.x, record.y, uintBitsToFloat(record.z), record.w,
+                      uintBitsToFloat(texelFetch(patch_texture, at + 1)),
+                      uintBitsToFloat(texelFetch(patch_texture, at + 2)), uintBitsToFloat(detail.x),
+                      uintBitsToFloat(detail.y), uintBitsToFloat(detail.z), detail.w);
+}
+#endif
 
 struct hair_patch_lines {
     uint  first;     // First follower.
@@ -23,23 +43,21 @@ struct hair_patch_lines {
 
 hair_patch_lines find_lines(uint number)
 {
-    int   at     = int(number) * HAIR_PATCH_TEXELS;
-    uvec4 record = texelFetch(patch_texture, at); // hair_patch
+    hair_patch own = fetch_patch(number);
 #ifdef HAIR_EVERY_FOLLOWER
-    return hair_patch_lines(record.x, record.y, draw.segments, float(draw.segments), 1.0, 1.0, 1.0, 1.0);
+    return hair_patch_lines(own.first, own.count, draw.segments, float(draw.segments), 1.0, 1.0, 1.0, 1.0);
 #else
 #ifdef HAIR_OCCLUSION
-    if (texelFetch(patch_texture, at + 3).w != 0u)
-        return hair_patch_lines(record.x, 0u, 1u, 1.0, 1.0, 1.0, 1.0, 1.0);
+    if (own.occluded != 0u) return hair_patch_lines(own.first, 0u, 1u, 1.0, 1.0, 1.0, 1.0, 1.0);
 #endif
-    float mapped    = dot(uintBitsToFloat(texelFetch(patch_texture, at + 1)), draw.map_weights);
-    float thickness = dot(uintBitsToFloat(texelFetch(patch_texture, at + 2)), draw.map_weights);
-    float fraction     = clamp(uintBitsToFloat(record.z) * mapped, 0.0, 1.0) * draw.density;
+    float mapped    = dot(own.map_density, draw.map_weights);
+    float thickness = dot(own.map_thickness, draw.map_weights);
+    float fraction  = clamp(own.density * mapped, 0.0, 1.0) * draw.density;
 
-    hair_detail detail  = find_detail(record.w, uintBitsToFloat(texelFetch(patch_texture, at + 3)));
-    float       wanted  = float(record.y) * fraction * detail.strands;
+    hair_detail detail  = find_detail(own.guide, vec3(own.reach, own.longest, own.importance));
+    float       wanted  = float(own.count) * fraction * detail.strands;
     uint        strands = uint(ceil(wanted));
-    return hair_patch_lines(record.x, strands, uint(ceil(detail.segments)), detail.segments,
+    return hair_patch_lines(own.first, strands, uint(ceil(detail.segments)), detail.segments,
                             1.0 - (float(strands) - wanted), thickness * detail.thickness,
                             thickness * detail.thickness * detail.wider, detail.thickness);
 #endif

@@ -6,7 +6,10 @@
 #include "workgroup.glsl"
 layout(local_size_x = HAIR_GROUP_SIZE) in;
 
-layout(binding = HAIR_UNIT_PATCH) uniform usamplerBuffer patch_texture;
+layout(std430, binding = HAIR_BIND_STORED_PATCH) readonly restrict buffer patch_buffer
+{
+    hair_patch patches[];
+};
 layout(std430, binding = HAIR_BIND_CACHED_POSITION) readonly restrict buffer cached_position_buffer
 {
     vec4 cached_position[];
@@ -21,9 +24,9 @@ shared vec3 lower[HAIR_GROUP_SIZE], upper[HAIR_GROUP_SIZE];
 void main()
 {
     uint number = hair_group(), i = gl_LocalInvocationID.x;
-    if (number >= uint(textureSize(patch_texture)) / HAIR_PATCH_TEXELS) return;
-    uvec2 all  = texelFetch(patch_texture, int(number) * HAIR_PATCH_TEXELS).xy; // hair_patch
-    uint  each = draw.segments + 1u, first = all.x * each, end = (all.x + all.y) * each;
+    if (number >= uint(patches.length())) return;
+    hair_patch own = patches[number];
+    uint each = draw.segments + 1u, first = own.first * each, end = (own.first + own.count) * each;
     vec3  low = cached_position[first].xyz, high = low;
     for (uint k = first + i; k < end; k += HAIR_GROUP_SIZE) {
         low  = min(low, cached_position[k].xyz);

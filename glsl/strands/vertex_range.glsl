@@ -14,12 +14,12 @@ vertex_range find_vertex_range()
     uint number = hair_group() / draw.chunks, each = draw.segments + 1u,
          stride = draw.chunks * HAIR_GROUP_SIZE;
     vertex_range none = vertex_range(number, 0u, 0u, stride, 1.0, 1.0);
-    if (number >= uint(textureSize(patch_texture)) / HAIR_PATCH_TEXELS) return none;
-    uvec2 all = texelFetch(patch_texture, int(number) * HAIR_PATCH_TEXELS).xy; // hair_patch
+    if (number >= count_patches()) return none;
+    hair_patch all = fetch_patch(number);
     uint  own = hair_group() % draw.chunks * HAIR_GROUP_SIZE + gl_LocalInvocationID.x;
     // A strand that is about to appear counts as drawn, because other stages round differently.
     hair_patch_lines lines = find_lines(number);
-    uint  strands = min(lines.strands + uint(lines.fading > 0.999), all.y);
-    return vertex_range(number, all.x * each + own, (all.x + strands) * each, stride, lines.thickness,
+    uint  strands = min(lines.strands + uint(lines.fading > 0.999), all.count);
+    return vertex_range(number, all.first * each + own, (all.first + strands) * each, stride, lines.thickness,
                         lines.widened);
 }

@@ -26,7 +26,7 @@ void hair_draw_find_extent(struct hair_renderer* renderer, const struct hair_gro
     }
     for (uint32_t i = 0; i < groom->info.patch_count; ++i) {
         extent->reach = fmaxf(extent->reach, groom->patches[i].reach);
-        extent->length = fmaxf(extent->length, groom->patches[i].length);
+        extent->length = fmaxf(extent->length, groom->patches[i].longest);
         extent->importance = fmaxf(extent->importance, groom->patches[i].importance);
     }
 }

@@ -153,13 +153,13 @@ void hair_draw_cull_occluded(struct hair_renderer* renderer, struct hair_draw_pl
     struct hair_gl* gl = renderer->gl;
     struct hair_occlusion* occlusion = &renderer->occlusion;
     HAIR_ASSERT(occlusion->room >= hair_hiz_texels(params->columns, params->rows));
-    GLuint buffers[] = {occlusion->depth, occlusion->box, renderer->geometry->patch};
+    GLuint buffers[] = {occlusion->depth, occlusion->box};
     uint32_t parts = renderer->geometry->guides * HAIR_OCCLUSION_PARTS;
     hair_gl_pass patches = HAIR_GL_CULL_PATCHES;
     if (hair_geometry_has_hits(renderer->geometry))
         patches = hair_gl_add_features(patches, HAIR_GL_WITH(HITS));
     hair_gl_bind_buffers(gl, GL_UNIFORM_BUFFER, HAIR_BIND_OCCLUSION, 1, &occlusion->params);
-    hair_gl_bind_buffers(gl, GL_SHADER_STORAGE_BUFFER, HAIR_BIND_HIZ, 3, buffers);
+    hair_gl_bind_buffers(gl, GL_SHADER_STORAGE_BUFFER, HAIR_BIND_HIZ, 2, buffers);
     hair_gl_bind_texture(gl, HAIR_UNIT_OCCLUSION, plan->view->occluder_depth);
     hair_gl_bind_sampler(gl, HAIR_UNIT_OCCLUSION, gl->shadow_sampler[0]);
     hair_hiz_run(gl, occlusion->params, params);

@@ -221,24 +221,34 @@ static void run(struct hair_gl* gl, hair_gl_pass row, const struct hair_draw_pla
     hair_gl_run(gl, hair_gl_add_features(row, plan->features), groups);
 }
 
+// Bind the vertices of ribbons, which are those of the view or of the vertex cache.
+static void bind_ribbons(struct hair_renderer* renderer, const struct hair_draw_plan* plan)
+{
+    const struct hair_vertex_cache* cache = &renderer->geometry->vertex_cache;
+    const GLuint cached[] = {cache->position, cache->tangent};
+    bool is_of_view = plan->vertices == HAIR_VERTICES_PER_VIEW;
+    hair_gl_bind_buffers(renderer->gl, GL_SHADER_STORAGE_BUFFER, HAIR_BIND_RIBBON_POSITION, 2,
+                         is_of_view ? renderer->view_cache.buffer : cached);
+}
+
 void hair_draw_rasterise(struct hair_renderer* renderer, struct hair_draw_plan* plan)
 {
     struct hair_raster_params* params = &plan->raster;
     struct hair_gl* gl = renderer->gl;
     struct hair_raster* raster = &renderer->raster;
-    GLuint buffers[] = {raster->nearest, raster->tile};
+    GLuint buffers[] = {raster->nearest, raster->tile, renderer->strand_list.strand};
     size_t numbers = count_numbers(params, plan->draw);
     HAIR_ASSERT(raster->room >= numbers && raster->tile_room >= params->tiles + HAIR_TILE_FIRST);
     uint64_t segments = estimate_segments(renderer, plan->view);
     params->split = split_segments(segments);
-    hair_gl_bind_texture(gl, HAIR_UNIT_STRAND, renderer->strand_list.strand_texture);
     hair_gl_bind_texture(gl, HAIR_UNIT_TILE, raster->tile_texture);
     if (plan->depth_test.depth) {
         hair_gl_bind_texture(gl, HAIR_UNIT_OCCLUSION, plan->depth_test.depth);
         hair_gl_bind_sampler(gl, HAIR_UNIT_OCCLUSION, gl->shadow_sampler[0]);
     }
     hair_gl_bind_buffers(gl, GL_UNIFORM_BUFFER, HAIR_BIND_RASTER, 1, &raster->params);
-    hair_gl_bind_buffers(gl, GL_SHADER_STORAGE_BUFFER, HAIR_BIND_NEAREST, 2, buffers);
+    hair_gl_bind_buffers(gl, GL_SHADER_STORAGE_BUFFER, HAIR_BIND_NEAREST, 3, buffers);
+    bind_ribbons(renderer, plan);
     hair_gl_bind_buffers(gl, GL_SHADER_STORAGE_BUFFER, HAIR_BIND_COMMAND, 1, &renderer->strand_list.command);
     hair_gl_write_uniform(gl, raster->params, sizeof *params, params);
     run(gl, HAIR_GL_RASTER_CLEAR, plan, groups_for((numbers + 3) / 4));

@@ -81,9 +81,8 @@ static void write_listed_vertices(struct hair_renderer* renderer, const struct h
     struct hair_gl* gl = renderer->gl;
     struct hair_view_cache* view_cache = &renderer->view_cache;
     HAIR_ASSERT(view_cache->buffer[HAIR_VIEW_CACHE_POSITION]);
-    hair_gl_bind_texture(gl, HAIR_UNIT_STRAND, renderer->strand_list.strand_texture);
-    hair_gl_bind_buffers(gl, GL_SHADER_STORAGE_BUFFER, HAIR_BIND_LIST_COMMAND, 1,
-                         &renderer->strand_list.command);
+    const GLuint list[] = {renderer->strand_list.strand, renderer->strand_list.command};
+    hair_gl_bind_buffers(gl, GL_SHADER_STORAGE_BUFFER, HAIR_BIND_LISTED_STRAND, 2, list);
     hair_gl_bind_buffers(gl, GL_SHADER_STORAGE_BUFFER, HAIR_BIND_CACHED_POSITION, HAIR_VIEW_CACHE_PARTS,
                          view_cache->buffer);
     hair_gl_run_indirect(gl, plan->shade, plan->shade_program, renderer->strand_list.command,

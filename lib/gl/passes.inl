@@ -171,12 +171,12 @@ PASS(SMOOTH, "strands/smooth", SMOOTH, SIZES | WITH(SKINNED) | WITH(TARGETS), "s
 PASS(GUIDE_TANGENTS, "strands/guide_tangents", SMOOTH, 0, "strands/guide_tangents.comp")
 PASS(DISPLACE, "strands/displace", SMOOTH, 0, "strands/displace.comp")
 PASS(EXPAND, "strands/expand", EXPAND, WITH(HITS) | STYLE_FEATURES,
-     "HAIR_STORED=1 HAIR_EVERY_FOLLOWER=1 strands/expand.comp")
+     "HAIR_EVERY_FOLLOWER=1 strands/expand.comp")
 PASS(EXPAND_DRAWN, "strands/expand_drawn", EXPAND, WITH(HITS) | STYLE_FEATURES,
-     "HAIR_STORED=1 strands/expand.comp")
+     "strands/expand.comp")
 PASS(HIT, "strands/hit", HIT, STYLE_FEATURES, "HAIR_FINDS_HITS=1 strands/hit.comp")
 PASS(HIT_GROUP, "strands/hit_group", HIT, STYLE_FEATURES,
-     "HAIR_FINDS_HITS=1 HAIR_STORED=1 HAIR_HIT_GROUP=1 strands/hit.comp")
+     "HAIR_FINDS_HITS=1 HAIR_HIT_GROUP=1 strands/hit.comp")
 PASS(PREPASS, "strands/hit_prepass", HIT, STYLE_FEATURES,
      "HAIR_FINDS_HITS=1 HAIR_EVERY_FOLLOWER=1 draw/patch.vert draw/patch.tesc strands/hit.tese "
      "strands/hit.frag")
@@ -205,9 +205,9 @@ PASS(EXPAND_VIEW_SIDES, "draw/expand_view_sides", COLOR, STAGE_FEATURES | WITH(L
 PASS(VIEW_CACHED, "draw/view_cached", COLOR, WITH(DEPTH) | WITH(LINES),
      "draw/view_cache.vert !HAIR_DEPTH?draw/strand.frag HAIR_DEPTH?draw/depth.frag")
 PASS(RASTER_CLEAR, "draw/raster_clear", COLOR, RASTER_FEATURES, "draw/raster_clear.comp")
-PASS(RASTER, "draw/raster", COLOR, RASTER_FEATURES | WITH(WIDENED), "HAIR_VERTEX_CACHE=1 draw/raster.comp")
+PASS(RASTER, "draw/raster", COLOR, RASTER_FEATURES | WITH(WIDENED), "draw/raster.comp")
 PASS(COMPOSE_TILES, "draw/compose_tiles", COLOR, RASTER_FEATURES | WITH(WIDENED),
-     "HAIR_VERTEX_CACHE=1 draw/compose_tiles.comp")
+     "draw/compose_tiles.comp")
 PASS(RESOLVE_TILES, "draw/resolve_tiles", COLOR, RASTER_FEATURES | WITH(MOTION_OUTPUT),
      "draw/resolve_tiles.vert draw/resolve_tiles.frag")
 PASS(SHADE, "draw/shade", COLOR,
@@ -218,9 +218,9 @@ PASS(REFLECTANCE, "draw/reflectance", COLOR, WITH(GROOM_COLORS) | WITH(LENGTHS),
      "HAIR_VERTEX_CACHE=1 HAIR_USER_PIXELS=1 draw/shade.comp")
 PASS(SCAN_STRANDS, "draw/scan_strands", SCAN_STRANDS, WITH(OCCLUSION), "draw/scan_strands.comp")
 PASS(COMPACT_STRANDS, "draw/compact_strands", COMPACT_STRANDS, WITH(OCCLUSION), "draw/compact_strands.comp")
-PASS(HISTOGRAM, "draw/histogram", COLOR, 0, "HAIR_VERTEX_CACHE=1 draw/histogram.comp")
+PASS(HISTOGRAM, "draw/histogram", COLOR, 0, "draw/histogram.comp")
 PASS(PREFIX_SUM, "draw/prefix_sum", COLOR, 0, "draw/prefix_sum.comp")
-PASS(SCATTER, "draw/scatter", COLOR, 0, "HAIR_VERTEX_CACHE=1 HAIR_SCATTER=1 draw/histogram.comp")
+PASS(SCATTER, "draw/scatter", COLOR, 0, "HAIR_SCATTER=1 draw/histogram.comp")
 PASS(DENSITY_CLEAR, "light/density_clear", SELF_SHADOW, 0, "light/density_clear.comp")
 PASS(DENSITY_BOUNDS, "light/density_bounds", SELF_SHADOW, 0, "light/density_bounds.comp")
 PASS(DENSITY_SPLAT, "light/density_splat", SELF_SHADOW, 0, "light/density_splat.comp")

@@ -133,6 +133,8 @@ static hair_result read_stages(struct recipe* recipe, const char* stages)
             HAIR_TRY(define(recipe, word));
         } else if (wanted) {
             snprintf(stage->name, sizeof stage->name, "%s", wanted);
+            // OpenGL guarantees storage buffers to compute shaders only.
+            if (stage_of(stage->name) == GL_COMPUTE_SHADER) HAIR_TRY(define(recipe, "HAIR_STORED 1"));
             HAIR_TRY(hair_gl_read_source_with(&gl->host, gl->glsl_dir, stage->name, recipe->prefix,
                                               recipe->shader ? recipe->shader->text : NULL, &stage->source));
             ++recipe->stages;

@@ -51,7 +51,7 @@ static void measure_patch(const struct hair_groom* groom, struct hair_patch* pat
     for (uint32_t j = 0; j < patch->count; ++j) {
         float length = follower[j].length_ratio * groom->guides[follower[j].guide0].arc_length;
         patch->reach = fmaxf(patch->reach, follower_reach(groom, &follower[j], from));
-        patch->length = fmaxf(patch->length, length);
+        patch->longest = fmaxf(patch->longest, length);
     }
 }
 

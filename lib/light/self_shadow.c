@@ -14,9 +14,8 @@
 void hair_lighting_free_self_shadow(struct hair_lighting* lighting)
 {
     struct hair_self_shadow_state* own = &lighting->self_shadow;
-    if (!own->box) return; // The first buffer that is made.
+    if (!own->nodes && !own->light) return;
     hair_gl_free_array(lighting->gl, &own->density, NULL);
-    hair_gl_free_array(lighting->gl, &own->box, NULL);
     hair_gl_free_array(lighting->gl, &own->nodes, NULL);
     hair_gl_free_array(lighting->gl, &own->light, &own->texture);
     memset(own, 0, sizeof *own);
@@ -38,12 +37,10 @@ hair_result hair_lighting_ensure_grid(struct hair_lighting* lighting, uint32_t n
     own->filled = own->spare = 0;
     own->each = each;
     own->frame = 0;
-    HAIR_TRY(hair_gl_ensure_array(gl, HAIR_GL_CATEGORY_SELF_SHADOW, "hair density box", 6 * sizeof(uint32_t),
-                                  &own->box, 0, NULL));
     HAIR_TRY(hair_gl_ensure_array(gl, HAIR_GL_CATEGORY_SELF_SHADOW, "hair light of nodes",
                                   (size_t)own->room * each * sizeof(float), &own->nodes, 0, NULL));
     return hair_gl_ensure_array(gl, HAIR_GL_CATEGORY_SELF_SHADOW, "hair density",
-                                own->room * sizeof(uint32_t), &own->density, 0, NULL);
+                                (HAIR_DENSITY_FIRST + own->room) * sizeof(uint32_t), &own->density, 0, NULL);
 }
 
 static hair_result ensure_light(struct hair_lighting* lighting, const struct hair_geometry* geometry)
@@ -63,8 +60,9 @@ static void fill_grid(struct hair_lighting* lighting, const struct hair_geometry
 {
     struct hair_gl* gl = lighting->gl;
     struct hair_self_shadow_state* own = &lighting->self_shadow;
-    HAIR_ASSERT(own->density && own->box && groups > 0);
-    hair_gl_run(gl, HAIR_GL_DENSITY_CLEAR, own->room / 4 / HAIR_GROUP_SIZE);
+    HAIR_ASSERT(own->density && groups > 0);
+    // The box takes one group more.
+    hair_gl_run(gl, HAIR_GL_DENSITY_CLEAR, 1 + own->room / 4 / HAIR_GROUP_SIZE);
     hair_gl_run(gl, HAIR_GL_DENSITY_BOUNDS, groups);
     uint32_t each = (groups / geometry->patches + HAIR_SPLAT_ROUNDS - 1) / HAIR_SPLAT_ROUNDS;
     hair_gl_limit_groups(gl, HAIR_GL_DENSITY_SPLAT, SPLAT_SEGMENTS / (HAIR_GROUP_SIZE * HAIR_SPLAT_ROUNDS));
@@ -119,9 +117,8 @@ hair_result hair_lighting_update_self_shadow(struct hair_lighting* lighting, str
     hair_geometry_bind(geometry);
     hair_lighting_bind_shadow_maps(lighting, view);
     uint32_t groups = geometry->patches * params->chunks;
-    GLuint grid[] = {own->density, own->box};
     GLuint buffers[] = {own->nodes, geometry->vertex_cache.position, own->light};
-    hair_gl_bind_buffers(gl, GL_SHADER_STORAGE_BUFFER, HAIR_BIND_DENSITY, 2, grid);
+    hair_gl_bind_buffers(gl, GL_SHADER_STORAGE_BUFFER, HAIR_BIND_DENSITY, 1, &own->density);
     hair_gl_bind_buffers(gl, GL_SHADER_STORAGE_BUFFER, HAIR_BIND_DENSITY_LIGHT, 3, buffers);
     if (own->filled != geometry->vertex_cache.writes) fill_grid(lighting, geometry, groups);
     if (is_found(lighting, view, params) && !view->lod) return HAIR_OK;

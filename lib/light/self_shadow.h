@@ -6,7 +6,7 @@
 #include "lib/gl/commands.h"
 
 struct hair_self_shadow_state {
-    GLuint density, box, nodes, light; // Buffers, as in shared.h. 0 until needed.
+    GLuint density, nodes, light; // Buffers, as in shared.h. 0 until needed.
     GLuint texture; // Buffer texture of `light`.
     uint32_t room; // Capacity of the grid, in nodes.
     uint32_t spare; // Number of views in turn that need much less.

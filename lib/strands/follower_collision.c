@@ -86,12 +86,6 @@ static void run_collision(struct hair_geometry* geometry, const struct hair_coll
     if (follower_collision->prepass) hair_geometry_run_prepass(geometry);
     int by_group = !follower_collision->prepass && !gl->software;
     uint32_t each = by_group ? HAIR_HIT_FOLLOWERS : HAIR_GROUP_SIZE;
-    if (by_group) {
-        hair_gl_bind_buffers(gl, GL_SHADER_STORAGE_BUFFER, HAIR_BIND_STORED_POSITION, 2,
-                             geometry->smooth.buffer);
-        hair_gl_bind_buffers(gl, GL_SHADER_STORAGE_BUFFER, HAIR_BIND_STORED_FOLLOWER, 1,
-                             &geometry->follower.buffer);
-    }
     hair_gl_run(gl, pass_of(geometry), (geometry->followers + each - 1) / each);
     // Work groups beyond the end of the list return at once.
     if (geometry->look.followers.collision != HAIR_FOLLOWER_COLLISION_PUSH_OUT) return;

@@ -83,6 +83,15 @@ void hair_geometry_bind_group_looks(const struct hair_geometry* geometry)
         hair_gl_bind_buffers(gl, GL_UNIFORM_BUFFER, HAIR_BIND_GROUP_LOOKS, 1, &geometry->groups.factors);
 }
 
+// Bind the buffers that compute shaders read in place of textures.
+static void bind_stored(struct hair_geometry* geometry)
+{
+    const GLuint buffers[] = {geometry->follower.buffer, geometry->smooth.buffer[1], geometry->patch};
+    hair_gl_bind_buffers(geometry->gl, GL_SHADER_STORAGE_BUFFER, HAIR_BIND_STORED_FOLLOWER, 3, buffers);
+    hair_gl_bind_buffers(geometry->gl, GL_SHADER_STORAGE_BUFFER, HAIR_BIND_STORED_POSITION, 1,
+                         &geometry->smooth.buffer[0]);
+}
+
 void hair_geometry_bind(struct hair_geometry* geometry)
 {
     struct hair_gl* gl = geometry->gl;
@@ -100,6 +109,7 @@ void hair_geometry_bind(struct hair_geometry* geometry)
         hair_gl_bind_texture(gl, HAIR_UNIT_LENGTH, geometry->lengths->follower_texture);
     if (geometry->factors.texture)
         hair_gl_bind_texture(gl, HAIR_UNIT_STRAND_FACTOR, geometry->factors.texture);
+    bind_stored(geometry);
     hair_gl_bind_buffers(gl, GL_UNIFORM_BUFFER, HAIR_BIND_DRAW, 1, &geometry->params);
     hair_geometry_bind_group_looks(geometry);
 }

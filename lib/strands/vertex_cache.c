@@ -86,9 +86,6 @@ hair_result hair_geometry_ensure_vertex_cache(struct hair_geometry* geometry,
     hair_geometry_save_history(geometry);
     HAIR_ASSERT(vertex_cache->vertices == hair_geometry_count_vertices(geometry) && params.chunks > 0);
     GLuint buffers[] = {vertex_cache->position, vertex_cache->tangent};
-    hair_gl_bind_buffers(gl, GL_SHADER_STORAGE_BUFFER, HAIR_BIND_STORED_POSITION, 2, geometry->smooth.buffer);
-    hair_gl_bind_buffers(gl, GL_SHADER_STORAGE_BUFFER, HAIR_BIND_STORED_FOLLOWER, 1,
-                         &geometry->follower.buffer);
     hair_gl_bind_buffers(gl, GL_SHADER_STORAGE_BUFFER, HAIR_BIND_CACHED_POSITION, 2, buffers);
     hair_gl_run(gl, pass, geometry->patches * params.chunks);
     // Unbind the buffers before they can be deleted. Mesa unbinds a deleted buffer with

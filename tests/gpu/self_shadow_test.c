@@ -95,9 +95,9 @@ static void look_inside(struct fixture* f)
 {
     const struct hair_self_shadow_state* own = &f->scene.hair->lighting.self_shadow;
     const struct hair_geometry* geometry = &f->scene.hair->geometry;
-    uint32_t box[6];
+    uint32_t box[HAIR_DENSITY_FIRST];
     size_t nodes = 1;
-    glGetNamedBufferSubData(own->box, 0, sizeof box, box);
+    glGetNamedBufferSubData(own->density, 0, sizeof box, box);
     f->grid.cell = (double)geometry->look.self_shadow.cell;
     for (int i = 0; i < 3; ++i) {
         double low = (double)from_float_key(box[i]), high = (double)from_float_key(~box[3 + i]);
@@ -110,7 +110,7 @@ static void look_inside(struct fixture* f)
     f->density = calloc(nodes, sizeof *f->density);
     f->met = calloc(nodes * EACH, sizeof *f->met);
     f->position = malloc(VERTICES * sizeof *f->position);
-    glGetNamedBufferSubData(own->density, 0, (GLsizeiptr)(nodes * sizeof *sums), sums);
+    glGetNamedBufferSubData(own->density, sizeof box, (GLsizeiptr)(nodes * sizeof *sums), sums);
     glGetNamedBufferSubData(own->nodes, 0, (GLsizeiptr)(nodes * EACH * sizeof *light), light);
     glGetNamedBufferSubData(own->light, 0, sizeof f->numbers, f->numbers);
     glGetNamedBufferSubData(geometry->vertex_cache.position, 0, VERTICES * sizeof *f->position, f->position);
