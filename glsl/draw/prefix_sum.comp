@@ -1,7 +1,7 @@
 // prefix_sum.comp - prefix sum of the depth histogram, which gives the first sorted segment of each
-// bin, and the command that draws all segments. One work group.
+// bin, and the commands that draw all segments. One work group.
 #version 450 core
-#include "shared.h"
+#include "draw_params.glsl"
 #include "workgroup.glsl"
 layout(local_size_x = HAIR_COUNT_THREADS) in;
 
@@ -12,6 +12,19 @@ layout(std430, binding = HAIR_BIND_COMMAND) writeonly restrict buffer command_bu
 };
 
 shared uint sums[HAIR_COUNT_THREADS];
+
+// Write the commands that draw sorted segments, as many at a time as full strands have.
+void write_commands(uint segments)
+{
+    uint at_once = draw.draw_instances * HAIR_INSTANCE_STRANDS;
+    uint all     = (draw.followers + at_once - 1u) / at_once;
+    for (uint k = gl_LocalInvocationID.x; k < all; k += HAIR_COUNT_THREADS) {
+        uint from  = min(k * at_once * draw.segments, segments);
+        uint count = min(segments - from, at_once * draw.segments);
+        command[HAIR_LIST_COMMANDS + HAIR_LIST_KINDS * k + HAIR_LIST_SORTED] =
+            hair_draw_command(2u * count, 1u, 2u * from, 0u, 0u, 0u, 0u, 0u);
+    }
+}
 
 void main()
 {
@@ -33,6 +46,5 @@ void main()
         bin[k]  = start;
         start += count;
     }
-    if (i == HAIR_COUNT_THREADS - 1u)
-        command[HAIR_SORTED_COMMAND] = hair_draw_command(2u * sums[i], 1u, 0u, 0u, 0u, 0u, 0u, 0u);
+    write_commands(sums[HAIR_COUNT_THREADS - 1u]);
 }

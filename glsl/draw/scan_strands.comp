@@ -29,16 +29,24 @@ uint find_indices(out uint before)
     return each;
 }
 
-// Write a command for full instances of HAIR_INSTANCE_STRANDS strands and one for the remaining
-// strands. A segment has `corners` indices, and each of its ends has `ends` vertices.
-void write_commands(uint at, uint strands, uint each, uint before, uint corners, uint ends)
+// Write the commands of a kind that draw full instances of HAIR_INSTANCE_STRANDS strands, and the
+// command `at` for the remaining strands. A segment has `corners` indices, and each of its ends has
+// `ends` vertices.
+void write_commands(uint kind, uint at, uint strands, uint each, uint before, uint corners, uint ends)
 {
     uint indices = corners * each, first = corners * before;
-    uint left = strands % HAIR_INSTANCE_STRANDS, whole = strands - left;
-    command[at] = hair_draw_command(HAIR_INSTANCE_STRANDS * indices, whole / HAIR_INSTANCE_STRANDS, first, 0u,
-                                    0u, strands, 0u, 0u);
-    command[at + 1u] =
-        hair_draw_command(left * indices, 1u, first, whole * (draw.segments + 1u) * ends, 0u, 0u, 0u, 0u);
+    uint left = strands % HAIR_INSTANCE_STRANDS, whole = strands - left, at_once = draw.draw_instances;
+    uint vertices = (draw.segments + 1u) * ends;
+    uint all      = (draw.followers / HAIR_INSTANCE_STRANDS + at_once - 1u) / at_once;
+    for (uint k = gl_LocalInvocationID.x; k < all; k += HAIR_COUNT_THREADS) {
+        uint from = min(k * at_once * HAIR_INSTANCE_STRANDS, whole);
+        uint instances = min((whole - from) / HAIR_INSTANCE_STRANDS, at_once);
+        command[HAIR_LIST_COMMANDS + HAIR_LIST_KINDS * k + kind] =
+            hair_draw_command(HAIR_INSTANCE_STRANDS * indices, instances, first, from * vertices, 0u, 0u,
+                              0u, 0u);
+    }
+    if (gl_LocalInvocationID.x == 0u)
+        command[at] = hair_draw_command(left * indices, 1u, first, whole * vertices, 0u, strands, 0u, 0u);
 }
 
 // Write the dispatch of one thread per indexed vertex, in the dimensions of workgroup.glsl.
@@ -74,9 +82,8 @@ void main()
     atomicMax(max_value, longest);
     synchronise();
     for (uint number = first; number < end; ++number) start[number] += sums[i] - sum;
-    if (i != HAIR_COUNT_THREADS - 1u) return;
-    uint before, segments = find_indices(before);
-    write_commands(0u, sums[i], segments, before, 2u, 1u);
-    write_commands(HAIR_PAIRED_COMMAND, sums[i], segments, before, HAIR_PAIRED_INDICES, 2u);
-    write_expand_view_command(sums[i], segments + 1u);
+    uint before, segments = find_indices(before), strands = sums[HAIR_COUNT_THREADS - 1u];
+    write_commands(HAIR_LIST_LINES, 0u, strands, segments, before, 2u, 1u);
+    write_commands(HAIR_LIST_PAIRED, HAIR_PAIRED_COMMAND, strands, segments, before, HAIR_PAIRED_INDICES, 2u);
+    if (i == 0u) write_expand_view_command(strands, segments + 1u);
 }

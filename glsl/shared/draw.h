@@ -44,9 +44,7 @@ HAIR_SIZE(hair_strand)
 // dispatch that writes per-view vertices begins with three work group counts.
 struct hair_draw_command {
     hair_uint count, instances, first, base_vertex, base_instance;
-    // Strands in the list. Written in the first of two commands that draw a list, and in the
-    // dispatch.
-    hair_uint strands;
+    hair_uint strands; // Strands in the list. Written in command 0 and in the dispatch.
     hair_uint each;    // Vertices per strand, in the dispatch.
     hair_uint unused0;
 };
@@ -134,7 +132,7 @@ struct hair_draw_params {
     float     max_radius; // Maximum radius of a drawn strand, m.
     // Parallelism of the strands where no pass measures their vertices, from 0 for curls to 1.
     float     order;
-    hair_uint unused0;
+    hair_uint draw_instances; // Instances of listed strands in a draw.
     float     curl_slope;  // Mean square slope of curls, see hair_lighting_find_curl().
     float     curl_rate;   // Phase of curls by length along a strand, radians/m.
     hair_vec4 map_weights; // Weights of the sets of maps. Their sum is 1.

@@ -128,21 +128,24 @@
 // Buffers of the passes that write the strand list, which is drawn without a tessellator.
 #define HAIR_BIND_START 3   // uint[] per patch. Index of its first strand in the list.
 #define HAIR_BIND_STRAND 4  // hair_strand[] per drawn strand.
-// hair_draw_command[HAIR_COMMANDS]. Commands 0 and 1 draw segments by their two ends. Command
-// HAIR_SORTED_COMMAND draws sorted segments. Command HAIR_PAIRED_COMMAND and the one after it draw
-// segments by pairs of vertices. Command HAIR_EXPAND_VIEW_COMMAND dispatches the pass that writes
-// the per-view vertices.
+// hair_draw_command[]. Commands 0 and HAIR_PAIRED_COMMAND draw the strands beyond the last full
+// instance. Command HAIR_EXPAND_VIEW_COMMAND dispatches the pass that writes the per-view vertices.
+// Draws of draw.draw_instances full instances follow from HAIR_LIST_COMMANDS on. Each has
+// HAIR_LIST_KINDS commands: by the two ends of segments, by pairs of vertices, and sorted.
 #define HAIR_BIND_COMMAND 5
-#define HAIR_COMMANDS 6
-#define HAIR_SORTED_COMMAND 2
-#define HAIR_PAIRED_COMMAND 3
-#define HAIR_EXPAND_VIEW_COMMAND 5
+#define HAIR_PAIRED_COMMAND 1
+#define HAIR_EXPAND_VIEW_COMMAND 2
+#define HAIR_LIST_COMMANDS 3
+#define HAIR_LIST_KINDS 3
+#define HAIR_LIST_LINES 0
+#define HAIR_LIST_PAIRED 1
+#define HAIR_LIST_SORTED 2
 #define HAIR_PAIRED_INDICES 6 // Per segment.
 // Buffers of the pass that writes the per-view vertices, in the order of the strand list. It writes
 // to HAIR_BIND_CACHED_POSITION and the two slots after it, in their formats. With HAIR_SIDES it
 // writes clip-space positions to HAIR_BIND_CACHED_POSITION: one hair_vec4 per side of a ribbon
 // vertex, or one per line vertex.
-#define HAIR_BIND_LIST_COMMAND 3  // hair_draw_command[HAIR_COMMANDS]. Read-only.
+#define HAIR_BIND_LIST_COMMAND 3  // hair_draw_command[], as at HAIR_BIND_COMMAND. Read-only.
 // hair_strand[] of the strand list, in place of HAIR_BIND_STORED_PATCH. Read-only. The compute
 // rasteriser has it too.
 #define HAIR_BIND_LISTED_STRAND 2

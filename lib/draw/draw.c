@@ -82,11 +82,11 @@ static void prepare_vertices(struct hair_renderer* renderer, struct hair_draw_pl
 static void submit(struct hair_renderer* renderer, const struct hair_draw_plan* plan)
 {
     if (plan->blending == HAIR_BLENDING_SORTED)
-        hair_draw_issue_sorted_segments(renderer);
+        hair_draw_issue_sorted_segments(renderer, plan);
     else if (plan->is_computed)
         hair_draw_resolve_tiles(renderer, plan);
     else if (plan->has_strand_list)
-        hair_draw_issue_strand_list(renderer, plan->is_paired);
+        hair_draw_issue_strand_list(renderer, plan);
     else
         hair_geometry_draw_patches(renderer->geometry);
 }

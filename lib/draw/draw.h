@@ -122,9 +122,14 @@ void hair_draw_free_strand_list(struct hair_renderer* renderer);
 // inputs of followers must be bound.
 void hair_draw_update_strand_list(struct hair_renderer* renderer, const struct hair_draw_plan* plan,
                                   const struct hair_draw_params* params);
-// Draw the listed strands with the current program. Nonzero `paired` draws triangles between two
+// Return the full instances of listed strands in a draw, of which a GPU takes little time.
+uint32_t hair_draw_instances_at_once(const struct hair_renderer* renderer);
+// Issue the draws of a kind of HAIR_LIST_KINDS with the bound vertex array.
+void hair_draw_issue_commands(struct hair_renderer* renderer, const struct hair_draw_plan* plan,
+                              uint32_t kind, GLenum mode, GLenum type);
+// Draw the listed strands with the current program. A paired plan draws triangles between two
 // vertices per strand point. Otherwise draw lines.
-void hair_draw_issue_strand_list(struct hair_renderer* renderer, int paired);
+void hair_draw_issue_strand_list(struct hair_renderer* renderer, const struct hair_draw_plan* plan);
 
 // Functions of plan.c.
 
@@ -200,7 +205,7 @@ void hair_draw_free_sorted_segments(struct hair_renderer* renderer);
 // Sort the segments of the listed strands from far to near.
 void hair_draw_sort(struct hair_renderer* renderer);
 // Draw the sorted segments with the current program. The caller enables blending.
-void hair_draw_issue_sorted_segments(struct hair_renderer* renderer);
+void hair_draw_issue_sorted_segments(struct hair_renderer* renderer, const struct hair_draw_plan* plan);
 
 // Create the buffers of per-view vertices. Defined in view_cache.c.
 hair_result hair_draw_ensure_view_cache(struct hair_renderer* renderer, struct hair_draw_plan* plan);

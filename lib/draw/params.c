@@ -66,6 +66,7 @@ void hair_draw_write_params(const struct hair_renderer* renderer, const struct h
     HAIR_ASSERT(head && view);
     hair_geometry_write_params(geometry, out);
     out->push_out_weight = geometry->push_out_weight;
+    out->draw_instances = hair_draw_instances_at_once(renderer);
     write_view(renderer, head, view, out);
     hair_lighting_write_params(renderer->lighting, &geometry->look, head, view, out);
     hair_draw_write_lod(renderer, head, view, out);

@@ -60,14 +60,11 @@ void hair_draw_sort(struct hair_renderer* renderer)
     hair_gl_run(gl, HAIR_GL_SCATTER, groups);
 }
 
-void hair_draw_issue_sorted_segments(struct hair_renderer* renderer)
+void hair_draw_issue_sorted_segments(struct hair_renderer* renderer, const struct hair_draw_plan* plan)
 {
     struct hair_gl* gl = renderer->gl;
-    const uintptr_t first = HAIR_SORTED_COMMAND * sizeof(struct hair_draw_command);
     HAIR_ASSERT(renderer->sorted_segments.vertex_array && renderer->strand_list.command);
     hair_gl_bind_texture(gl, HAIR_UNIT_STRAND, renderer->strand_list.strand_texture);
     gl->BindVertexArray(renderer->sorted_segments.vertex_array);
-    gl->BindBuffer(GL_DRAW_INDIRECT_BUFFER, renderer->strand_list.command);
-    gl->Disable(GL_PRIMITIVE_RESTART);
-    gl->MultiDrawElementsIndirect(GL_LINES, GL_UNSIGNED_INT, (const void*)first, 1, 0);
+    hair_draw_issue_commands(renderer, plan, HAIR_LIST_SORTED, GL_LINES, GL_UNSIGNED_INT);
 }

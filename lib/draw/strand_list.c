@@ -2,8 +2,26 @@
 // patches draw. Each strand is drawn by the ends of its segments. The driver shades the end that
 // two segments share only once.
 #include "lib/draw/draw.h"
+#include "lib/draw/params.h"
 
 #include <string.h>
+
+// Return the instances of all strands, if the last may have fewer strands.
+static uint32_t count_instances(uint32_t strands)
+{
+    return (strands + HAIR_INSTANCE_STRANDS - 1) / HAIR_INSTANCE_STRANDS;
+}
+
+uint32_t hair_draw_instances_at_once(const struct hair_renderer* renderer)
+{
+    const struct hair_geometry* geometry = renderer->geometry;
+    uint32_t all = count_instances(geometry->followers);
+    uint64_t vertices = 2 * (uint64_t)HAIR_INSTANCE_STRANDS * (geometry->look.strand.segments + 1);
+    // The first vertex of a later draw must be a number of 32 bits.
+    if (all * vertices > UINT32_MAX || renderer->gl->draw_vertices / vertices >= all) return all;
+    uint32_t instances = (uint32_t)(renderer->gl->draw_vertices / vertices);
+    return instances < 1 ? 1 : instances;
+}
 
 static hair_result make_lists(struct hair_renderer* renderer)
 {
@@ -18,10 +36,11 @@ static hair_result make_lists(struct hair_renderer* renderer)
         result = hair_gl_ensure_array(gl, HAIR_GL_CATEGORY_COMPACT_STRANDS, "hair strands",
                                       geometry->followers * sizeof(struct hair_strand), &own->strand,
                                       GL_RGBA32UI, &own->strand_texture);
+    // Draws of one instance each are the most.
+    size_t commands = HAIR_LIST_COMMANDS + HAIR_LIST_KINDS * (size_t)count_instances(geometry->followers);
     if (!result)
-        result =
-            hair_gl_ensure_array(gl, HAIR_GL_CATEGORY_COMPACT_STRANDS, "hair commands",
-                                 HAIR_COMMANDS * sizeof(struct hair_draw_command), &own->command, 0, NULL);
+        result = hair_gl_ensure_array(gl, HAIR_GL_CATEGORY_COMPACT_STRANDS, "hair commands",
+                                      commands * sizeof(struct hair_draw_command), &own->command, 0, NULL);
     return result;
 }
 
@@ -113,6 +132,7 @@ static struct hair_strand_list_key list_key(const struct hair_renderer* renderer
     }
     of.params.density = params->density;
     of.params.segments = params->segments;
+    of.params.draw_instances = params->draw_instances;
     of.params.map_weights = params->map_weights;
     of.params.strand_fraction = params->strand_fraction;
     of.params.segment_fraction = params->segment_fraction;
@@ -138,15 +158,36 @@ void hair_draw_update_strand_list(struct hair_renderer* renderer, const struct h
     *strand_list->key = of;
 }
 
-void hair_draw_issue_strand_list(struct hair_renderer* renderer, int paired)
+static const void* find_command(size_t command)
+{
+    const uintptr_t at = command * sizeof(struct hair_draw_command);
+    return (const void*)at;
+}
+
+void hair_draw_issue_commands(struct hair_renderer* renderer, const struct hair_draw_plan* plan,
+                              uint32_t kind, GLenum mode, GLenum type)
 {
     struct hair_gl* gl = renderer->gl;
-    const uintptr_t first = paired ? HAIR_PAIRED_COMMAND * sizeof(struct hair_draw_command) : 0;
-    HAIR_ASSERT(renderer->strand_list.indices[paired].segments == renderer->geometry->look.strand.segments);
-    hair_gl_bind_texture(gl, HAIR_UNIT_STRAND, renderer->strand_list.strand_texture);
-    gl->BindVertexArray(renderer->strand_list.indices[paired].vertex_array);
+    HAIR_ASSERT(kind < HAIR_LIST_KINDS);
+    uint32_t instances = count_instances(hair_draw_max_strands(renderer, plan->head, plan->view));
+    uint32_t each = hair_draw_instances_at_once(renderer), draws = (instances + each - 1) / each;
     gl->BindBuffer(GL_DRAW_INDIRECT_BUFFER, renderer->strand_list.command);
     gl->Disable(GL_PRIMITIVE_RESTART);
-    gl->MultiDrawElementsIndirect(paired ? GL_TRIANGLES : GL_LINES, GL_UNSIGNED_SHORT, (const void*)first, 2,
-                                  sizeof(struct hair_draw_command));
+    for (uint32_t i = 0; i < draws; ++i)
+        gl->MultiDrawElementsIndirect(
+            mode, type, find_command(HAIR_LIST_COMMANDS + HAIR_LIST_KINDS * (size_t)i + kind), 1, 0);
+}
+
+void hair_draw_issue_strand_list(struct hair_renderer* renderer, const struct hair_draw_plan* plan)
+{
+    struct hair_gl* gl = renderer->gl;
+    const struct hair_strand_list_indices* indices = &renderer->strand_list.indices[plan->is_paired];
+    const GLenum mode = plan->is_paired ? GL_TRIANGLES : GL_LINES;
+    HAIR_ASSERT(indices->segments == renderer->geometry->look.strand.segments);
+    hair_gl_bind_texture(gl, HAIR_UNIT_STRAND, renderer->strand_list.strand_texture);
+    gl->BindVertexArray(indices->vertex_array);
+    hair_draw_issue_commands(renderer, plan, plan->is_paired ? HAIR_LIST_PAIRED : HAIR_LIST_LINES, mode,
+                             GL_UNSIGNED_SHORT);
+    gl->MultiDrawElementsIndirect(mode, GL_UNSIGNED_SHORT,
+                                  find_command(plan->is_paired ? HAIR_PAIRED_COMMAND : 0), 1, 0);
 }
