@@ -37,7 +37,8 @@ void write_commands(uint kind, uint at, uint strands, uint each, uint before, ui
     uint indices = corners * each, first = corners * before;
     uint left = strands % HAIR_INSTANCE_STRANDS, whole = strands - left, at_once = draw.draw_instances;
     uint vertices = (draw.segments + 1u) * ends;
-    uint all      = (draw.followers / HAIR_INSTANCE_STRANDS + at_once - 1u) / at_once;
+    uint all      = (draw.followers + HAIR_INSTANCE_STRANDS - 1u) / HAIR_INSTANCE_STRANDS;
+    all           = (all + at_once - 1u) / at_once;
     for (uint k = gl_LocalInvocationID.x; k < all; k += HAIR_COUNT_THREADS) {
         uint from = min(k * at_once * HAIR_INSTANCE_STRANDS, whole);
         uint instances = min((whole - from) / HAIR_INSTANCE_STRANDS, at_once);
