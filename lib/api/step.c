@@ -96,14 +96,15 @@ hair_result hair_step(hair_instance* hair, float dt)
     HAIR_TRY(hair_check_instance(hair));
     hair_context* context = hair->context;
     HAIR_TRY(check_dt(hair, dt));
+    bool sleeps = hair_sleep_through(&hair->sim); // Sleeping hair needs no OpenGL.
+    if (dt > 0 && (!sleeps || context->gl.is_lost)) HAIR_TRY(hair_check_current(context));
     follow_budget(hair);
     if (dt == 0) return HAIR_OK;
     double time = bound_time(hair, (double)dt);
-    if (context->gl.is_lost) return hair_check_current(context); // Sleeping hair needs no OpenGL.
     struct undo was = begin_undo(hair);
     hair_sim_set_unseen_time(&hair->sim, was.unseen + time);
     if (sleep_through(hair, time)) return HAIR_OK;
-    hair_result result = hair_check_current(context);
+    hair_result result = sleeps ? hair_check_current(context) : HAIR_OK;
     if (!result) result = check_feedback(hair);
     if (!result) {
         hair_enter_frame(hair);
@@ -190,9 +191,11 @@ hair_result hair_step_list(hair_instance* const* list, uint32_t count, float dt)
     if (!count) return HAIR_OK;
     hair_context* context = list[0]->context;
     HAIR_TRY(check_dt(list[0], dt));
+    bool all_sleep = true;
+    for (uint32_t i = 0; i < count; ++i) all_sleep &= hair_sleep_through(&list[i]->sim);
+    if (dt > 0 && (!all_sleep || context->gl.is_lost)) HAIR_TRY(hair_check_current(context));
     for (uint32_t i = 0; i < count; ++i) follow_budget(list[i]);
     if (dt == 0) return HAIR_OK;
-    if (context->gl.is_lost) return hair_check_current(context);
     struct step_batch batch = {.count = 0};
     hair_result first = HAIR_OK, result;
     for (uint32_t i = 0; i < count; ++i) {

@@ -295,6 +295,25 @@ static void budget_by_the_clock_of_the_driver(void** state)
     free_heads(&heads);
 }
 
+static void refused_steps_leave_the_budget(void** state)
+{
+    struct heads heads = make_heads(*state, true);
+    struct hair_test* test = heads.scene.test;
+    const char* words = "no OpenGL context is current";
+    hair_test_ok(test, hair_set_budget(test->context, 5));
+    ticker.variable = 4;
+    for (int i = 0; i < 20; ++i) run_frame(&heads, DT);
+    const struct hair_budget was = test->context->budget;
+    const struct hair_budget_part part = heads.hair[0]->budget;
+    hair_egl_make_current(NULL);
+    hair_test_refused(test, hair_step(heads.hair[0], DT), HAIR_ERROR_OPENGL, words);
+    hair_test_refused(test, hair_step_list(heads.hair, HEADS, DT), HAIR_ERROR_OPENGL, words);
+    assert_memory_equal(&test->context->budget, &was, sizeof was);
+    assert_memory_equal(&heads.hair[0]->budget, &part, sizeof part);
+    hair_egl_make_current(test->egl);
+    free_heads(&heads);
+}
+
 static void budget_out_of_range_is_refused(void** state)
 {
     struct hair_test* test = *state;
@@ -317,6 +336,7 @@ int main(void)
                                        HAIR_TEST(budget_that_suffices_changes_no_picture),
                                        HAIR_TEST(levels_of_the_application_are_multiplied),
                                        HAIR_TEST(budget_by_the_clock_of_the_driver),
+                                       HAIR_TEST(refused_steps_leave_the_budget),
                                        HAIR_TEST(budget_out_of_range_is_refused)};
     return cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);
 }
