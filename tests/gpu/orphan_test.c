@@ -73,6 +73,35 @@ static void start(struct fixture* f, struct hair_test* test, int way)
     hair_test_trace_clear();
 }
 
+// Refuse the calls of lists, of cuts, of buffers, of contacts and of groups.
+static void check_others_refused(struct fixture* f)
+{
+    hair_view view = hair_test_tessellated();
+    hair_cut_desc cut = hair_cut_desc_default();
+    hair_buffers buffers = hair_buffers_default();
+    hair_target_blend blend = hair_target_blend_default();
+    hair_group_look group = hair_group_look_default();
+    hair_physics physics = hair_physics_default();
+    hair_collider_contact contact;
+    float positions[30] = {0};
+    uint32_t count = 0;
+    refused(hair_step_list(&f->hair, 1, 1.0f / 60));
+    refused(hair_draw_list(&f->hair, 1, &view));
+    refused(hair_cut(f->hair, &cut, NULL, NULL));
+    refused(hair_set_lengths(f->hair, 0, 1, positions));
+    refused(hair_get_lengths(f->hair, 0, 1, positions));
+    refused(hair_get_buffers(f->hair, HAIR_READ_FOLLOWERS, &buffers));
+    refused(hair_record_contacts(f->hair, 100));
+    refused(hair_get_contacts(f->hair, true, &contact, sizeof contact, 1, &count));
+    refused(hair_set_targets(f->hair, positions, 10, 12, NULL));
+    refused(hair_set_targets_buffer(f->hair, 1, 0, 12, NULL));
+    refused(hair_set_target_blend(f->hair, &blend));
+    refused(hair_set_group_look(f->hair, 0, &group));
+    refused(hair_get_group_look(f->hair, 0, &group));
+    refused(hair_set_group_physics(f->hair, 0, &physics));
+    refused(hair_get_group_physics(f->hair, 0, &physics));
+}
+
 // Refuse every call on the instance.
 static void check_refused(struct fixture* f)
 {
@@ -117,6 +146,7 @@ static void check_refused(struct fixture* f)
     refused(hair_report(f->hair, false, &report, NULL, 0, 0, &count));
     refused(hair_save(f->hair, NULL, 0, &size));
     refused(hair_load(f->hair, positions, sizeof positions));
+    check_others_refused(f);
 }
 
 // Destroy what is left, and check that nothing stays.
@@ -163,6 +193,7 @@ static void abandoned_context_is_inert_without_opengl(void** state)
     hair_test_refused(f.test, hair_context_reload(f.context), HAIR_ERROR_ARGUMENT, words);
     hair_test_refused(f.test, hair_get_memory(f.context, &memory), HAIR_ERROR_ARGUMENT, words);
     hair_test_refused(f.test, hair_set_memory_limit(f.context, 1), HAIR_ERROR_ARGUMENT, words);
+    hair_test_refused(f.test, hair_set_budget(f.context, 1), HAIR_ERROR_ARGUMENT, words);
     hair_test_refused(f.test, hair_create(f.context, f.groom, &desc, &other), HAIR_ERROR_ARGUMENT, words);
     hair_test_refused(f.test, hair_shader_create(f.context, &shader, &other_shader), HAIR_ERROR_ARGUMENT,
                       words);

@@ -114,12 +114,42 @@ static void check_refused(struct fixture* f)
     hair_test_forgive(test);
 }
 
+// Refuse the calls of lists, of cuts, of buffers and of contacts.
+static void check_others_refused(struct fixture* f)
+{
+    struct hair_test* test = f->scene.test;
+    hair_context* context = f->scene.hair->context;
+    hair_instance* hair = f->scene.hair;
+    hair_view view = hair_test_tessellated();
+    hair_cut_desc cut = hair_cut_desc_default();
+    hair_buffers buffers = hair_buffers_default();
+    hair_body_desc desc = hair_body_desc_default();
+    const float positions[9] = {0, 0, 0, 0.1f, 0, 0, 0, 0.1f, 0}, half = 0.5f;
+    const uint32_t triangle[3] = {0, 1, 2};
+    hair_body* body = NULL;
+    char tuning[1000];
+    desc.positions = positions, desc.triangles = triangle;
+    desc.vertex_count = 3, desc.triangle_count = 1;
+    desc.upper[0] = desc.upper[1] = desc.upper[2] = 1;
+    hair_test_refused(test, hair_step_list(&hair, 1, 1.0f / 60), HAIR_ERROR_OPENGL, words);
+    hair_test_refused(test, hair_draw_list(&hair, 1, &view), HAIR_ERROR_OPENGL, words);
+    hair_test_refused(test, hair_set_lengths(hair, 0, 1, &half), HAIR_ERROR_OPENGL, words);
+    hair_test_refused(test, hair_cut(hair, &cut, NULL, NULL), HAIR_ERROR_OPENGL, words);
+    hair_test_refused(test, hair_get_buffers(hair, HAIR_READ_FOLLOWERS, &buffers), HAIR_ERROR_OPENGL, words);
+    hair_test_refused(test, hair_body_create(context, &desc, &body), HAIR_ERROR_OPENGL, words);
+    hair_test_refused(test, hair_record_contacts(hair, 100), HAIR_ERROR_OPENGL, words);
+    hair_test_refused(test, hair_context_tune(context, tuning, sizeof tuning), HAIR_ERROR_OPENGL, words);
+    hair_test_refused(test, hair_set_targets_buffer(hair, 1, 0, 12, NULL), HAIR_ERROR_OPENGL, words);
+    assert_null(body);
+}
+
 static void calls_are_refused(struct hair_test* test, void* (*get_proc)(const char*, void*), bool shares)
 {
     static struct hair_test_points before, after;
     struct fixture f;
     start(&f, test, get_proc, shares);
     check_refused(&f);
+    check_others_refused(&f);
     check_other(&f);
     make_current(&f, EGL_NO_CONTEXT);
     hair_test_refused(test, hair_step(f.scene.hair, 1.0f / 60), HAIR_ERROR_OPENGL, "no OpenGL context");
