@@ -118,7 +118,9 @@ void hair_gl_use_program(struct hair_gl* gl, GLuint program)
 {
     if (hair_gl_is_recording(gl)) return;
     gl->UseProgram(program);
-    if (gl->recorder) gl->recorder->program = program;
+    if (!gl->recorder) return;
+    gl->recorder->program = program;
+    if (gl->recorder->mode == HAIR_GL_AT_ONCE) hair_gl_bind_stream(gl, program);
 }
 
 void hair_gl_dispatch(struct hair_gl* gl, GLuint program, uint32_t first, uint32_t count, uint32_t all)

@@ -61,8 +61,8 @@ void hair_gl_flush(struct hair_gl* gl);
 // Run everything that is recorded, if any of it may read the contents of a buffer of the current
 // stream, which are written at once.
 void hair_gl_begin_write(struct hair_gl* gl, GLuint buffer);
-// Run everything that is recorded, bind what a stream has bound, and run commands at once until
-// hair_gl_record_again().
+// Run everything that is recorded, and run commands of a stream at once until
+// hair_gl_record_again(). A program that becomes current gets what the stream has bound.
 void hair_gl_continue_stream(struct hair_gl* gl, uint32_t index);
 // Run commands of the current stream at once until hair_gl_record_again(). Return whether commands
 // were recorded.

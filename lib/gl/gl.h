@@ -111,6 +111,12 @@ struct hair_gl_shader {
     uint32_t count, room;
 };
 
+// Binding slots and units of a program, one bit each.
+struct hair_gl_inputs {
+    GLuint program;
+    uint32_t storage, uniform, textures, images;
+};
+
 struct hair_gl_profiler;
 struct hair_gl_recorder;
 struct hair_gl_allocation;
@@ -176,6 +182,8 @@ struct hair_gl {
     int lines_level;
     bool records; // True if a GPU profits from passes of several instances side by side.
     struct hair_gl_recorder* recorder; // Commands of several instances. NULL until first needed.
+    struct hair_gl_inputs* inputs; // Inputs of programs in lists of instances.
+    uint32_t inputs_count, inputs_room;
     struct hair_gl_saved saved;
 #define FUNCTION(type, name, parameters) type(APIENTRY* name) parameters;
 #include "lib/gl/functions.inl"
@@ -251,6 +259,13 @@ void hair_gl_key_add(struct hair_gl_key* key, const char* text);
 bool hair_gl_cache_load(struct hair_gl* gl, struct hair_gl_key key, GLuint program);
 // Store a compiled program in the cache.
 void hair_gl_cache_store(struct hair_gl* gl, struct hair_gl_key key, GLuint program);
+
+// inputs.c ----------------------------------------------------------------------------------------
+
+// Return the slots and units of a program, or NULL without memory. They are queried once.
+const struct hair_gl_inputs* hair_gl_find_inputs(struct hair_gl* gl, GLuint program);
+// Delete a program, and forget its slots and units.
+void hair_gl_delete_program(struct hair_gl* gl, GLuint program);
 
 // source.c ----------------------------------------------------------------------------------------
 

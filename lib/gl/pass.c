@@ -55,12 +55,15 @@ void hair_gl_free_programs(struct hair_gl* gl)
 {
     for (uint32_t i = 0; i < gl->programs; ++i) {
         struct hair_gl_program* own = gl->program[i];
-        if (own->program) gl->DeleteProgram(own->program);
-        if (own->begun) gl->DeleteProgram(own->begun);
+        if (own->program) hair_gl_delete_program(gl, own->program);
+        if (own->begun) hair_gl_delete_program(gl, own->begun);
         if (own->timer.query[0][0]) gl->DeleteQueries(2 * HAIR_GL_TIMER_DEPTH, own->timer.query[0]);
         hair_free(&gl->host, own);
     }
     hair_free(&gl->host, gl->program);
+    hair_free(&gl->host, gl->inputs);
+    gl->inputs = NULL;
+    gl->inputs_count = gl->inputs_room = 0;
 }
 
 // Write a timestamp, unless the driver has made no queries. The time is 0 then.
@@ -155,9 +158,15 @@ static uint32_t expect_groups(double ms, double ms_per_group, double max)
     return groups < 1 ? 1 : groups > HAIR_MAX_GROUPS ? HAIR_MAX_GROUPS : (uint32_t)groups;
 }
 
-// Dispatch parts that take long enough. Return the number of groups in the last one.
-static uint32_t dispatch_by_time(struct hair_gl* gl, struct hair_gl_program* own, GLuint program,
-                                 struct groups groups)
+// Let the next call dispatch all groups at once. `last` is the number of groups in the last part.
+static void end_parts(struct hair_gl* gl, GLuint program, uint32_t last, struct groups groups)
+{
+    if (last < groups.all) hair_gl_dispatch_whole(gl, program);
+}
+
+// Dispatch parts that take long enough.
+static void dispatch_by_time(struct hair_gl* gl, struct hair_gl_program* own, GLuint program,
+                             struct groups groups)
 {
     double start = hair_gl_now(), begun = start, max = own->ms_per_group > 0 ? HAIR_MAX_GROUPS : FIRST_GROUPS;
     uint32_t count = 0, part = expect_groups(PROBE, own->ms_per_group, max);
@@ -170,12 +179,12 @@ static uint32_t dispatch_by_time(struct hair_gl* gl, struct hair_gl_program* own
         begun = end;
     }
     own->ms_per_group = (begun - start) / (groups.end - groups.first);
-    return count;
+    end_parts(gl, program, count, groups);
 }
 
-// Dispatch parts that no GPU takes long for. Return the number of groups in the last one.
-static uint32_t dispatch_by_count(struct hair_gl* gl, struct hair_gl_program* own, GLuint program,
-                                  struct groups groups)
+// Dispatch parts that no GPU takes long for.
+static void dispatch_by_count(struct hair_gl* gl, struct hair_gl_program* own, GLuint program,
+                              struct groups groups)
 {
     uint32_t count = 0;
     if (!own->max_groups) own->max_groups = find_max_groups(gl, program);
@@ -183,18 +192,19 @@ static uint32_t dispatch_by_count(struct hair_gl* gl, struct hair_gl_program* ow
         count = groups.end - first < own->max_groups ? groups.end - first : own->max_groups;
         hair_gl_dispatch(gl, program, first, count, groups.all);
     }
+    // Before the barrier, because other streams may run the program for all groups until there.
+    end_parts(gl, program, count, groups);
     wait_for_writes(gl); // The parts do not read what others write.
-    return count;
 }
 
 static void dispatch(struct hair_gl* gl, struct hair_gl_program* own, GLuint program, struct groups groups)
 {
     HAIR_ASSERT(own && program && groups.first < groups.end && groups.end <= groups.all);
     bool by_time = gl->software && !hair_gl_is_recording(gl);
-    uint32_t last =
-        by_time ? dispatch_by_time(gl, own, program, groups) : dispatch_by_count(gl, own, program, groups);
-    // The next call may dispatch all groups at once.
-    if (last < groups.all) hair_gl_dispatch_whole(gl, program);
+    if (by_time)
+        dispatch_by_time(gl, own, program, groups);
+    else
+        dispatch_by_count(gl, own, program, groups);
 }
 
 void hair_gl_run_part(struct hair_gl* gl, hair_gl_pass pass, uint32_t first, uint32_t end, uint32_t groups)

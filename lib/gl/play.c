@@ -39,13 +39,15 @@ static void bind_run(struct hair_gl* gl, GLenum target, GLuint first, GLuint cou
         gl->BindBuffersBase(target, first, (GLsizei)count, buffer);
 }
 
-// Bind the slots that differ from what is bound. Slots between them are bound again, because each
-// call takes longer than a slot.
+// Bind the slots in `needed` that differ from what is bound. Slots between them are bound again,
+// because each call takes longer than a slot.
 static void bind_slots(struct hair_gl* gl, GLenum target, const struct hair_gl_stream* stream,
-                       const struct hair_gl_range* wanted, struct hair_gl_range* bound, GLuint slots)
+                       const struct hair_gl_range* wanted, struct hair_gl_range* bound, GLuint slots,
+                       uint32_t needed)
 {
     GLuint first = slots, end = 0;
     for (GLuint i = 0; i < slots; ++i) {
+        if (!(needed >> i & 1)) continue;
         struct hair_gl_range range = resolve(stream, wanted[i]);
         if (!range.buffer || are_equal(range, bound[i])) continue;
         bound[i] = range;
@@ -60,39 +62,48 @@ static void bind_slots(struct hair_gl* gl, GLenum target, const struct hair_gl_s
     }
 }
 
-// Bind the textures that differ. Those between them are bound again, but not where none is bound,
-// because the unit may have textures of the application.
-static void bind_textures(struct hair_gl* gl, const GLuint* wanted, GLuint* bound)
+// Bind the textures in `needed` that differ. Those between them are bound again, but not where none
+// is bound, because the unit may have textures of the application.
+static void bind_textures(struct hair_gl* gl, const GLuint* wanted, GLuint* bound, uint32_t needed)
 {
     GLuint first = HAIR_GL_UNITS, end = 0;
     for (GLuint i = 0; i <= HAIR_GL_UNITS; ++i) {
-        bool is_gap = i == HAIR_GL_UNITS || !(wanted[i] || bound[i]);
+        bool is_needed = i < HAIR_GL_UNITS && needed >> i & 1;
+        bool is_gap = i == HAIR_GL_UNITS || !((is_needed && wanted[i]) || bound[i]);
         if (is_gap && first < end) gl->BindTextures(first, (GLsizei)(end - first), bound + first);
         if (is_gap) first = HAIR_GL_UNITS, end = 0;
-        if (is_gap || !wanted[i] || wanted[i] == bound[i]) continue;
+        if (is_gap || !is_needed || !wanted[i] || wanted[i] == bound[i]) continue;
         bound[i] = wanted[i];
         if (first == HAIR_GL_UNITS) first = i;
         end = i + 1;
     }
 }
 
-static void bind_stream(struct hair_gl* gl, const struct hair_gl_stream* stream)
+// Bind what a stream has bound, as far as a program needs it. NULL `inputs` binds all.
+static void bind_stream(struct hair_gl* gl, const struct hair_gl_stream* stream,
+                        const struct hair_gl_inputs* inputs)
 {
+    static const struct hair_gl_inputs all = {0, UINT32_MAX, UINT32_MAX, UINT32_MAX, UINT32_MAX};
+    const struct hair_gl_inputs* needed = inputs ? inputs : &all;
     struct hair_gl_recorder* recorder = gl->recorder;
     const struct hair_gl_bindings* wanted = &stream->bindings;
     struct hair_gl_bindings* bound = &recorder->bound;
-    bind_slots(gl, GL_SHADER_STORAGE_BUFFER, stream, wanted->storage, bound->storage, HAIR_GL_STORAGE_SLOTS);
-    bind_slots(gl, GL_UNIFORM_BUFFER, stream, wanted->uniform, bound->uniform, HAIR_GL_UNIFORM_SLOTS);
-    bind_textures(gl, wanted->texture, bound->texture);
+    bind_slots(gl, GL_SHADER_STORAGE_BUFFER, stream, wanted->storage, bound->storage, HAIR_GL_STORAGE_SLOTS,
+               needed->storage);
+    bind_slots(gl, GL_UNIFORM_BUFFER, stream, wanted->uniform, bound->uniform, HAIR_GL_UNIFORM_SLOTS,
+               needed->uniform);
+    bind_textures(gl, wanted->texture, bound->texture, needed->textures);
     for (GLuint i = 0; i < HAIR_GL_UNITS; ++i) {
-        if (!wanted->sampler[i] || wanted->sampler[i] == bound->sampler[i]) continue;
+        if (!(needed->textures >> i & 1) || !wanted->sampler[i] || wanted->sampler[i] == bound->sampler[i])
+            continue;
         bound->sampler[i] = wanted->sampler[i];
         gl->BindSampler(i, wanted->sampler[i] - 1);
     }
     for (GLuint i = 0; i < HAIR_GL_IMAGE_SLOTS; ++i) {
         const struct hair_gl_image *want = &wanted->image[i], *has = &bound->image[i];
-        if (!want->texture || (want->texture == has->texture && want->is_layered == has->is_layered &&
-                               want->access == has->access && want->format == has->format))
+        if (!(needed->images >> i & 1) || !want->texture ||
+            (want->texture == has->texture && want->is_layered == has->is_layered &&
+             want->access == has->access && want->format == has->format))
             continue;
         gl->BindImageTexture(i, want->texture, 0, want->is_layered, 0, want->access, want->format);
         bound->image[i] = *want;
@@ -108,7 +119,7 @@ static void use_program(struct hair_gl* gl, GLuint program)
 static void play_dispatch(struct hair_gl* gl, const struct hair_gl_stream* stream,
                           const struct hair_gl_command* command)
 {
-    bind_stream(gl, stream);
+    bind_stream(gl, stream, hair_gl_find_inputs(gl, command->name));
     use_program(gl, command->name);
     if (command->kind == HAIR_GL_DISPATCH_INDIRECT) {
         gl->BindBuffer(GL_DISPATCH_INDIRECT_BUFFER, command->to);
@@ -150,16 +161,16 @@ static void play(struct hair_gl* gl, struct hair_gl_stream* stream, const struct
     }
 }
 
-void hair_gl_bind_stream(struct hair_gl* gl)
+void hair_gl_bind_stream(struct hair_gl* gl, GLuint program)
 {
-    bind_stream(gl, hair_gl_current_stream(gl->recorder));
+    bind_stream(gl, hair_gl_current_stream(gl->recorder), program ? hair_gl_find_inputs(gl, program) : NULL);
 }
 
 void hair_gl_play(struct hair_gl* gl, const struct hair_gl_command* command)
 {
     struct hair_gl_stream* stream = hair_gl_current_stream(gl->recorder);
     play(gl, stream, command);
-    if (command->kind < HAIR_GL_COPY) bind_stream(gl, stream);
+    if (command->kind < HAIR_GL_COPY) bind_stream(gl, stream, NULL);
 }
 
 // Run the commands of a stream up to its next barrier, and return the barrier, or 0 at the end.

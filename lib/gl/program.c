@@ -198,7 +198,7 @@ static hair_result begin_program(struct recipe* recipe, struct hair_gl_key* key,
     *kept = gl->cache.get && hair_gl_cache_load(gl, *key, program);
     hair_result result = *kept ? HAIR_OK : start_program(recipe, program);
     if (result)
-        gl->DeleteProgram(program);
+        hair_gl_delete_program(gl, program);
     else
         *out = program;
     return result;
@@ -214,7 +214,7 @@ static hair_result make_program(struct recipe* recipe, GLuint* out)
     hair_result result = begin_program(recipe, &key, &kept, &program);
     if (!result && !kept && !is_linked(gl, program)) {
         result = tell_why(recipe, program);
-        gl->DeleteProgram(program);
+        hair_gl_delete_program(gl, program);
     }
     if (result) return result;
     if (!kept) hair_gl_cache_store(gl, key, program);
@@ -276,7 +276,7 @@ static hair_result compile_again(struct hair_gl* gl, struct hair_gl_program* own
 {
     GLuint program = 0;
     HAIR_TRY(hair_gl_link_pass(gl, NULL, own->pass, &program));
-    if (own->program) gl->DeleteProgram(own->program);
+    if (own->program) hair_gl_delete_program(gl, own->program);
     own->program = program;
     own->is_warm = false;
     return HAIR_OK;
@@ -291,7 +291,7 @@ static void finish_program(struct hair_gl* gl, struct hair_gl_program* own)
         hair_gl_cache_store(gl, own->key, own->begun);
         own->program = own->begun;
     } else {
-        gl->DeleteProgram(own->begun);
+        hair_gl_delete_program(gl, own->begun);
     }
     own->begun = 0;
 }

@@ -157,7 +157,6 @@ void hair_gl_continue_stream(struct hair_gl* gl, uint32_t index)
     hair_gl_flush(gl);
     recorder->mode = HAIR_GL_AT_ONCE;
     recorder->current = index;
-    hair_gl_bind_stream(gl);
 }
 
 bool hair_gl_run_at_once(struct hair_gl* gl)
@@ -203,7 +202,7 @@ void hair_gl_forget(struct hair_gl* gl, bool is_texture, GLuint name)
     hair_gl_unbind(gl); // Mesa unbinds a deleted buffer in a way that changes other state.
     memset(&recorder->bound, 0, sizeof recorder->bound);
     recorder->program = 0;
-    if (recorder->mode == HAIR_GL_AT_ONCE) hair_gl_bind_stream(gl);
+    if (recorder->mode == HAIR_GL_AT_ONCE) hair_gl_bind_stream(gl, 0);
 }
 
 void hair_gl_free_recorder(struct hair_gl* gl)

@@ -113,8 +113,8 @@ void hair_gl_free_chunks(struct hair_gl* gl);
 
 // play.c ------------------------------------------------------------------------------------------
 
-// Bind what the current stream has bound.
-void hair_gl_bind_stream(struct hair_gl* gl);
+// Bind what the current stream has bound, as far as a program needs it. 0 binds all.
+void hair_gl_bind_stream(struct hair_gl* gl, GLuint program);
 
 // recorder.c --------------------------------------------------------------------------------------
 

@@ -20,7 +20,7 @@ hair_result hair_gl_create_shader(struct hair_gl* gl, const char* label, const c
 
 void hair_gl_free_shader_programs(struct hair_gl* gl, struct hair_gl_shader* shader)
 {
-    for (uint32_t i = 0; i < shader->count; ++i) gl->DeleteProgram(shader->programs[i].program);
+    for (uint32_t i = 0; i < shader->count; ++i) hair_gl_delete_program(gl, shader->programs[i].program);
     shader->count = 0;
 }
 

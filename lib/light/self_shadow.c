@@ -6,7 +6,7 @@
 
 #define MIN_NODES 4096u // Minimum capacity of the grid, a multiple of 4 times HAIR_GROUP_SIZE.
 #define SHRINKS 4 // A grid is made anew once many views in turn need less than a fourth of it.
-#define NODE_GROUPS 4096 // Number of work groups. Their threads loop over all nodes of the grid.
+#define NODE_GROUPS 4096 // Maximum work groups. Their threads loop over all nodes of the grid.
 // Work of a dispatch. A GPU must not take long for one. `hair-bench dispatch` measures them.
 #define SPLAT_SEGMENTS (1u << 21) // Segments of a dispatch that fills the grid.
 #define LIT_VALUES (1u << 21) // Light values of vertices of a dispatch.
@@ -125,7 +125,9 @@ hair_result hair_lighting_update_self_shadow(struct hair_lighting* lighting, str
     if (view->lod) own->frame = 0; // Another view draws other strands, or in another width.
     if (geometry->follower_collision.field) hair_field_bind(geometry->follower_collision.field);
     uint32_t values = params->light_values;
-    find_light(lighting, geometry, HAIR_GL_NODE_TRANSMITTANCE, NODE_GROUPS, NODE_GROUPS / values);
+    uint32_t whole = own->room / HAIR_GROUP_SIZE;
+    find_light(lighting, geometry, HAIR_GL_NODE_TRANSMITTANCE, whole < NODE_GROUPS ? whole : NODE_GROUPS,
+               NODE_GROUPS / values);
     hair_gl_pass pass = HAIR_GL_VERTEX_TRANSMITTANCE;
     if (view->lod) { // Strands of a level of detail are wider, and drawn elsewhere.
         pass = hair_geometry_choose_variant(geometry, HAIR_GL_VERTEX_TRANSMITTANCE_DRAWN);

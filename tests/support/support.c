@@ -63,7 +63,7 @@ uint32_t hair_test_blocks(const struct hair_test* test)
 {
     const struct hair_gl* gl = &test->context->gl;
     const struct hair_gl_recorder* recorder = gl->recorder;
-    uint32_t kept = gl->programs + (gl->program != NULL);
+    uint32_t kept = gl->programs + (gl->program != NULL) + (gl->inputs != NULL);
     if (recorder) kept += 1u + (recorder->stream != NULL) + (recorder->commands != NULL);
     return test->host.blocks - kept;
 }
