@@ -5,7 +5,7 @@
 #include <string.h>
 
 // Return the bits of the binding slots of the blocks of an interface.
-static uint32_t find_slots(struct hair_gl* gl, GLuint program, GLenum interface)
+static uint32_t find_block_slots(struct hair_gl* gl, GLuint program, GLenum interface)
 {
     static const GLenum property = GL_BUFFER_BINDING;
     GLint blocks = 0;
@@ -59,8 +59,8 @@ const struct hair_gl_inputs* hair_gl_find_inputs(struct hair_gl* gl, GLuint prog
     }
     struct hair_gl_inputs* own = &gl->inputs[gl->inputs_count++];
     *own = (struct hair_gl_inputs){.program = program,
-                                   .storage = find_slots(gl, program, GL_SHADER_STORAGE_BLOCK),
-                                   .uniform = find_slots(gl, program, GL_UNIFORM_BLOCK)};
+                                   .storage = find_block_slots(gl, program, GL_SHADER_STORAGE_BLOCK),
+                                   .uniform = find_block_slots(gl, program, GL_UNIFORM_BLOCK)};
     find_units(gl, own);
     return own;
 }
