@@ -7,6 +7,8 @@
 #include "tests/support/scene.h"
 #include "tests/support/ways.h"
 
+#include "lib/sim/save_fields.h"
+
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -248,6 +250,8 @@ static hair_result load(struct run* run)
     size_t size = run->before.size;
     if (any(run, 2)) bytes[any(run, (uint32_t)size)] ^= (unsigned char)(1 << any(run, 8));
     if (!any(run, 4)) size = any(run, (uint32_t)size + 64);
+    if (any(run, 3) && size >= HAIR_SAVE_HEADER + HAIR_SAVE_TRAILER)
+        hair_save_seal(bytes, size - HAIR_SAVE_TRAILER); // The fields then decide.
     return hair_load(run->scene.hair, bytes, size);
 }
 
