@@ -234,6 +234,7 @@ static void wrong_use_exits_with_2(void** state)
     }
     expect(1, "test -e $D/x.hair", "");
     expect(2, "$T generate mullet -", "long, bob, short, ponytail, curly, afro");
+    expect(2, "$T generate long $D/x.groomer", "ends in none of .groom, .hair and .tfx");
 }
 
 static void options_of_another_command_are_wrong_use(void** state)
