@@ -9,9 +9,9 @@ static uint32_t batch_size(const struct hair_geometry* geometry, uint32_t parts)
     uint32_t segments = geometry->look.strand.segments;
     if (segments > HAIR_MAX_ISOLINE_SEGMENTS) segments = HAIR_MAX_ISOLINE_SEGMENTS;
     uint32_t each = HAIR_MAX_ISOLINES * (segments + 1);
-    uint32_t by_driver = gl->max_draw_vertices / each, by_time = gl->draw_vertices / (each * parts);
-    uint32_t patches = by_driver < by_time ? by_driver : by_time;
-    return patches < 1 ? 1 : patches;
+    uint64_t by_driver = gl->max_draw_vertices / each, by_time = gl->draw_vertices / ((uint64_t)each * parts);
+    uint64_t patches = by_driver < by_time ? by_driver : by_time;
+    return patches < 1 ? 1 : (uint32_t)patches;
 }
 
 void hair_geometry_draw_patches(struct hair_geometry* geometry)
