@@ -10,6 +10,9 @@
 // fraction of sample points that nothing occludes in the map. The samples lie on the half segments
 // beside the vertex and across the strand, where the map's own level of detail draws the strand.
 //
+// A wide strand of a far view stands for several, and the eye sees the front ones. Constants that
+// are fitted to the light of all strands adjust its light.
+//
 // For each light the pass writes two halves: the fraction that meets no strand, and the number of
 // strands met. Before them are two halves for the visible fraction of the sky, and the order of the
 // strand.
@@ -59,12 +62,36 @@ float around(uint which)
     return sum;
 }
 
-// Return the number of strands met on the way to a light at the distance `reach`, m.
-float met_towards(density_grid grid, vec3 position, uint light, vec3 to, float reach)
+// Return how much wider the view draws a strand than the shadow map of a light does, from 0 to 6.
+// Lights without a map return 0.
+float find_gain(uint map, float widened)
+{
+    float ratio = map < uint(HAIR_SHADOW_MAPS) ? max(widened / widened_in[map], 1.0) : 1.0;
+    return 6.0 * (ratio - 1.0) / (ratio + 19.0);
+}
+
+// Return the open fraction of a light for the visible part of a strand that stands for several.
+// `between` is the cosine of the angle between light and eye. `cut` is the fraction of the segments
+// that are left out, which cut curls off.
+float open_in_front(float open, float met, float order, float between, float gain, float cut)
+{
+    const float FIT_FRONT = 0.02, FIT_SEEN = 0.02, FIT_SEEN_CURLED = 0.33, FIT_WAVY = 6.0;
+    if (gain == 0.0) return open;
+    float curled = cut * (1.0 - order), wavy = order * (1.0 - order);
+    float power  = 1.0 - gain * (FIT_FRONT + (FIT_SEEN + FIT_SEEN_CURLED * curled) * between);
+    open         = pow(max(open, 1e-6), max(power, 0.0));
+    return open + min(FIT_WAVY * wavy * wavy * cut * gain, 1.0) * (1.0 - open) * exp(-0.5 * met);
+}
+
+// Return the number of strands met on the way to a light at the distance `reach`, m. Cells of far
+// views are large, and part of the hair within half a cell counts too.
+float met_towards(density_grid grid, vec3 position, uint light, vec3 to, float reach, float gain)
 {
     vec3  place = place_in(grid, position), way = in_head(to), size = vec3(grid.nodes) - 1.0;
     vec3  left  = mix(place, size - place, greaterThan(way, vec3(0.0))) / max(abs(way), 1e-6);
     float steps = min(min(left.x, min(left.y, left.z)), reach / grid.cell), sum = 0.0;
+    const float FIT_NEAR = 0.13;
+    if (gain > 0.0) sum += FIT_NEAR * gain * density_at(grid, place + 0.25 * way);
     float k = 0.0;
     for (int i = 0; i < NEAR_STEPS; ++i) {
         k += 1.0;
@@ -112,12 +139,14 @@ void light(density_grid grid, uint vertex, vertex_range run)
         vec4  place = draw.light[i * HAIR_LIGHT_VECTORS + HAIR_LIGHT_TO];
         vec3  to    = beam_at(i, at).to;
         float along = dot(tangent, to), reach = place.w > 0.0 ? length(place.xyz - at) : 1e9;
-        float met   = met_towards(grid, at, i, to, reach) * sqrt(max(1.0 - along * along, 0.0));
         uint  map   = map_of(i);
+        float gain  = find_gain(map, run.widened);
+        float met   = met_towards(grid, at, i, to, reach, gain) * sqrt(max(1.0 - along * along, 0.0));
         float open  = exp(-met);
         if (map < uint(HAIR_SHADOW_MAPS)) {
             strand_bit s = find_bit(vertex, k, widened_in[map], run.thickness / run.widened);
-            open = open_in(map, i, to, s);
+            vec3 to_eye = normalize(draw.eye.w > 0.0 ? draw.eye.xyz - at : draw.eye.xyz);
+            open = open_in_front(open_in(map, i, to, s), met, order, dot(to, to_eye), gain, run.cut);
         }
         light_of_vertex[vertex * draw.light_values + 1u + i] = packHalf2x16(vec2(open, met));
     }

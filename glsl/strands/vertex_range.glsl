@@ -7,13 +7,14 @@ struct vertex_range {
     uint  number; // Patch.
     uint  first, end, stride; // In vertices of all followers.
     float thickness, widened; // Factors of the width, see hair_patch_lines.
+    float cut; // Fraction of the segments that are left out.
 };
 
 vertex_range find_vertex_range()
 {
     uint number = hair_group() / draw.chunks, each = draw.segments + 1u,
          stride = draw.chunks * HAIR_GROUP_SIZE;
-    vertex_range none = vertex_range(number, 0u, 0u, stride, 1.0, 1.0);
+    vertex_range none = vertex_range(number, 0u, 0u, stride, 1.0, 1.0, 0.0);
     if (number >= count_patches()) return none;
     hair_patch all = fetch_patch(number);
     uint  own = hair_group() % draw.chunks * HAIR_GROUP_SIZE + gl_LocalInvocationID.x;
@@ -21,5 +22,5 @@ vertex_range find_vertex_range()
     hair_patch_lines lines = find_lines(number);
     uint  strands = min(lines.strands + uint(lines.fading > 0.999), all.count);
     return vertex_range(number, all.first * each + own, (all.first + strands) * each, stride, lines.thickness,
-                        lines.widened);
+                        lines.widened, max(1.0 - lines.whole / float(draw.segments), 0.0));
 }
