@@ -11,7 +11,7 @@
 #define SHORT 32 // Maximum vertices of a guide that fits into a subgroup.
 // Ratios of the cost among colliders that are looked up in the grid to that without.
 #define GRID_COST 2
-#define MANY_COST 13
+#define MANY_COST 15
 // Vertices of the guides beyond which a vertex costs twice as much, because caches hold few.
 #define LARGE (1u << 20)
 // Colliders among which a substep of even few guides is so long that a dispatch has one. A thread
