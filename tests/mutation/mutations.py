@@ -338,4 +338,13 @@ MUTATIONS = [
      "old": "!*end && !errno && value <= UINT32_MAX) return true;",
      "new": "!*end && !errno) return true;",
      "tests": ["unit/groom_tool"], "tools": ["hair-groom"]},
+    # Lists of instances
+    {"name": "head_beside_a_divided_dispatch", "file": "lib/gl/pass.c",
+     "old": "    end_parts(gl, program, count, groups);\n    wait_for_writes(gl); // The parts",
+     "new": "    wait_for_writes(gl);\n    end_parts(gl, program, count, groups); // The parts",
+     "tests": ["gpu/list"]},
+    {"name": "slot_of_a_program_missed", "file": "lib/gl/inputs.c",
+     "old": "if (0 <= slot && slot < 32)",
+     "new": "if (0 < slot && slot < 32)",
+     "tests": ["gpu/list"]},
 ]
