@@ -15,7 +15,7 @@ function exists(mixture) # return whether some scene needs the combination
 
 function print_stage(flags, stage)
 {
-    if (stage ~ /\.comp$/) flags = flags " -DHAIR_STORED=1" # As hair_gl_link_pass() does.
+    if (stage ~ /\.comp$/) flags = flags " -DHAIR_STORED=1" # As lib/gl/program.c does.
     print "-DHAIR_GUIDE_THREADS=256" flags " glsl/" stage
     if (stage == "sim/rod.comp" || stage == "sim/mixed.comp")
         print "--target-spv=spv1.3 -DHAIR_SUBGROUP=1 -DHAIR_GUIDE_THREADS=32" flags " glsl/" stage

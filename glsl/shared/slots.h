@@ -109,7 +109,8 @@
 // uvec2[] per follower and control point of strands/repair.glsl. Four halves.
 #define HAIR_BIND_REPAIR 4
 #define HAIR_BIND_LIST 5 // uint[]. Two counts, used alternately, then the followers to be repaired.
-// Read-only buffers of compute passes with HAIR_STORED, which have these in place of textures.
+// Read-only buffers of guides, followers and patches, which compute shaders have in place of
+// textures.
 #define HAIR_BIND_STORED_FOLLOWER 0 // hair_follower[] per follower.
 #define HAIR_BIND_STORED_FRAME 1    // uvec2[] per smoothed vertex, as at HAIR_BIND_FRAME.
 #define HAIR_BIND_STORED_PATCH 2    // hair_patch[]. Occlusion culling writes this buffer.
