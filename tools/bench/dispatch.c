@@ -59,7 +59,6 @@ struct run {
     hair_groom* groom;
     hair_instance* hair;
     hair_collider* colliders;
-    struct bench_gl_longest longest[2]; // dispatch and draw of the frame in which they took least
     struct hair_targets targets;
     uint32_t guides;
 };
@@ -156,25 +155,16 @@ static hair_result draw(struct run* run)
     return hair_draw(run->hair, &view);
 }
 
-// Keep the longest dispatch or draw of a frame, if it took less than that of the frames before. A
-// pause of the processor in any call would count otherwise.
-static void keep(struct bench_gl_longest* least, struct bench_gl_longest frame)
-{
-    if (!least->count || frame.ms < least->ms) *least = frame;
-}
-
 static hair_result go(struct run* run)
 {
     uint32_t frames = run->bench->software ? FRAMES_SOFTWARE : FRAMES_GPU;
     for (uint32_t frame = 0; frame < frames; ++frame) {
         hair_result result = set_colliders(run, frame);
-        bench_gl_timer_clear();
+        if (frame <= 1) bench_gl_timer_clear(); // The first frame compiles programs.
+        bench_gl_timer_begin_frame();
         if (!result) result = hair_step(run->hair, 1.0f / 60);
         if (!result) result = draw(run);
         if (result) return result;
-        if (!frame) continue;
-        keep(&run->longest[0], bench_gl_longest_dispatch());
-        keep(&run->longest[1], bench_gl_longest_draw());
     }
     return HAIR_OK;
 }
@@ -220,10 +210,11 @@ static void measure(struct bench* bench, const struct subject* subject)
     if (result) {
         bench_refuse(bench, subject->name, method);
     } else {
-        add_row(&run, "dispatch", run.longest[0]);
-        add_row(&run, "draw", run.longest[1]);
+        add_row(&run, "dispatch", bench_gl_longest_dispatch());
+        add_row(&run, "draw", bench_gl_longest_draw());
     }
     destroy(&run);
+    bench_gl_timer_clear();
 }
 
 static void run_suite(struct bench* bench)

@@ -5,7 +5,8 @@
 
 #include <stdbool.h>
 
-// The longest dispatch or draw since the last clear.
+// The longest dispatch or draw of the last frame. Each has the least duration of all frames since
+// the last clear, which have the same dispatches and draws.
 struct bench_gl_longest {
     char pass[128]; // label of its pass
     double ms;
@@ -14,7 +15,9 @@ struct bench_gl_longest {
 
 // Return an OpenGL function, as hair_context_desc.get_proc does.
 void* bench_gl_timer_proc(const char* name, void* user);
+// Forget all frames.
 void bench_gl_timer_clear(void);
+void bench_gl_timer_begin_frame(void);
 struct bench_gl_longest bench_gl_longest_dispatch(void);
 struct bench_gl_longest bench_gl_longest_draw(void);
 
