@@ -3,7 +3,7 @@
 #include "lib/groom/style_body.h"
 #include "lib/groom/style_grow.h"
 
-#define HAIRLINE_DENSITY 0.4f // Fraction of the full density at the hairline.
+#define HAIRLINE_DENSITY 0.3f // Fraction of the full density at the hairline.
 #define HAIRLINE_WIDTH 0.012f // Height above the hairline of the full density, m.
 
 static hair_result grow_guides(const hair_host* host, const hair_style_desc* desc, struct hair_asset* asset)

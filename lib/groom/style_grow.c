@@ -29,6 +29,7 @@ struct walk {
     float inward; // turn rate towards the neck near the tip, 1/m
     float inward_below; // height below which hair turns inwards, m
     float split; // turn rate to the front or the back of the shoulder, 1/m
+    float ridge; // z at which hair parts to the front and the back of a shoulder, m
     float floor; // height at which the hair is cut, m
     float face; // distance kept from the face, m
     float fringe; // height at which hair over the forehead is cut, m, or 0
@@ -93,9 +94,9 @@ static hair_vec3 comb_from_parting(struct hair_parting parting, hair_vec3 p, flo
 
 // Return 1 in front of the ridge of a shoulder and -1 behind it, with a smooth transition. Hair
 // that comes down on the ridge slides off to that side. The value fades away from the ridge.
-static float split_at_shoulder(hair_vec3 p)
+static float split_at_shoulder(const struct walk* walk, hair_vec3 p)
 {
-    float off = (p.z + 0.034f) / 0.020f;
+    float off = (p.z - walk->ridge) / 0.020f;
     return fminf(fmaxf(off, -1), 1) * hair_smooth(4.0f, 1.5f, fabsf(off)) * hair_smooth(1.60f, 1.55f, p.y) *
            hair_smooth(1.37f, 1.42f, p.y);
 }
@@ -104,7 +105,7 @@ static hair_vec3 pull(const struct walk* walk, hair_vec3 p, float s)
 {
     float fraction = 1 - expf(-s / walk->hold);
     hair_vec3 v = hair_v3(0, -walk->gravity * fraction, 0);
-    v.z += walk->split * split_at_shoulder(p);
+    v.z += walk->split * split_at_shoulder(walk, p);
     if (p.y < walk->inward_below) {
         hair_vec3 in = hair_normalize(hair_v3(-p.x, 0, -0.02f - p.z), hair_v3(0, 0, -1));
         v = hair_add(v, hair_scale(in, walk->inward));
@@ -213,6 +214,8 @@ static void grow_long(uint32_t guide, hair_vec3 root, float scale, uint32_t seed
         .gravity = 45,
         .hold = 0.04f,
         .split = 25,
+        // Hair from behind the ears falls down the back.
+        .ridge = hair_mix(-0.004f, -0.034f, hair_smooth(-0.012f, 0.012f, root.z)),
         .floor = hair_mix(1.285f, 1.325f, front) + LAYERS * high + 0.03f * hair_noise(root, 0.012f, seed + 1),
         .face = 0.010f,
         .inward_below = 0,
@@ -290,6 +293,7 @@ static void grow_curly(uint32_t guide, hair_vec3 root, float scale, uint32_t see
         .gravity = 40,
         .hold = 0.04f,
         .split = 15,
+        .ridge = -0.034f,
         .floor = 1.385f + LAYERS * high + 0.025f * hair_noise(root, 0.012f, seed + 1),
         .face = 0.018f,
     };
@@ -320,7 +324,7 @@ static void grow_afro(uint32_t guide, hair_vec3 root, float scale, uint32_t seed
         hair_style_path_add(path, hair_lerp(hair_lerp(root, control, t), hair_lerp(control, tip, t), t));
     }
     struct hair_curl curl = {
-        .radius = 0.0042f, .pitch = 0.0125f, .start = 0.002f, .full = 0.025f, .variation = 0.25f};
+        .radius = 0.0042f, .pitch = 0.012f, .start = 0.002f, .full = 0.025f, .variation = 0.25f};
     make_lock(guide, seed + 1, 0.2f, &curl);
     hair_style_path_add_curl(path, &curl);
 }

@@ -15,8 +15,8 @@
 #define CANDIDATES 4 // Positions tried per vertex.
 // Number of relaxations. They make the spacing of 166 vertices even within a fifth.
 #define RELAXATIONS 6
-// Minimum distance of inner vertices from the middle of an outline edge, as a fraction of its
-// length.
+// Minimum distance of inner vertices from the ends and the middle of an outline edge, as a fraction
+// of its length.
 #define CLEARANCE 0.65f
 #define PARTING_HALF 0.0010f // Half the width of a parting at the hairline, m. A comb's line.
 
@@ -40,8 +40,8 @@ struct build {
 // Knots of the hairline: azimuth in degrees, height in metres. They follow the forehead, the corner
 // above the temple, the sideburn, the ear and the nape.
 static const float hairline[][2] = {{0, 1.692f},   {22, 1.693f},  {40, 1.694f},  {52, 1.679f},
-                                    {62, 1.652f},  {71, 1.624f},  {80, 1.611f},  {89, 1.626f},
-                                    {98, 1.639f},  {108, 1.634f}, {117, 1.608f}, {127, 1.580f},
+                                    {62, 1.652f},  {71, 1.624f},  {80, 1.609f},  {89, 1.620f},
+                                    {98, 1.625f},  {108, 1.606f}, {117, 1.584f}, {127, 1.575f},
                                     {142, 1.564f}, {160, 1.559f}, {180, 1.558f}};
 #define HAIRLINE_KNOTS ((int)(sizeof hairline / sizeof *hairline))
 
@@ -252,16 +252,22 @@ static hair_result triangulate_scalp(struct build* build)
     return HAIR_OK;
 }
 
-// Move p out of the circles around the edges of the outline. An edge of the outline is in the
-// triangulation if no vertex lies in the circle around it.
+static hair_vec3 keep_away(hair_vec3 p, hair_vec3 from, float distance)
+{
+    if (hair_distance(p, from) >= distance) return p;
+    hair_vec3 away = hair_normalize(hair_sub(p, from), hair_v3(0, 1, 0));
+    return hair_add(from, hair_scale(away, distance));
+}
+
+// Move p out of the circles around the edges of the outline and around their ends. An edge of the
+// outline is in the triangulation if no vertex lies in the circle around it.
 static hair_vec3 clear_outline(const struct build* build, hair_vec3 p)
 {
     for (uint32_t i = 0, j = build->outline_count - 1; i < build->outline_count; j = i++) {
-        hair_vec3 a = vertex_at(build, i), b = vertex_at(build, j), middle = hair_lerp(a, b, 0.5f);
-        float wanted = CLEARANCE * hair_distance(a, b);
-        if (hair_distance(p, middle) >= wanted) continue;
-        hair_vec3 away = hair_normalize(hair_sub(p, middle), hair_v3(0, 1, 0));
-        p = hair_add(middle, hair_scale(away, wanted));
+        hair_vec3 a = vertex_at(build, i), b = vertex_at(build, j);
+        float length = hair_distance(a, b);
+        p = keep_away(p, a, CLEARANCE * length);
+        p = keep_away(p, hair_lerp(a, b, 0.5f), CLEARANCE * length);
     }
     return hair_skull_point(hair_skull_unit(p));
 }

@@ -1,5 +1,6 @@
 // head_test.c - the bust that tools draw, on the built-in scalp and around its colliders.
 #include "lib/collide/distance.h"
+#include "lib/groom/style_scalp.h"
 #include "tests/support/host.h"
 
 #include <hair/hair_asset.h>
@@ -53,6 +54,17 @@ static void roots_lie_on_the_skin(void** state)
     }
     head_mesh_free(&mesh);
     hair_asset_destroy(asset);
+}
+
+// Check the hairline of the paint and of the fine hairs.
+static void paint_follows_the_hairline(void** state)
+{
+    (void)state;
+    for (int i = 0; i <= 180; ++i) {
+        float azimuth = (float)i * (PI / 180), height = hair_scalp_hairline(azimuth);
+        point p = {0.077f * sinf(azimuth), height, 0.096f * cosf(azimuth)};
+        assert_true(fabsf(head_above_hairline(p)) < 1e-4f);
+    }
 }
 
 // Return the squared distance of a vertex from the centre of the nearer eye.
@@ -237,6 +249,7 @@ int main(void)
     struct hair_test_host host;
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(roots_lie_on_the_skin),
+        cmocka_unit_test(paint_follows_the_hairline),
         cmocka_unit_test(the_mesh_is_sound_and_faces_outwards),
         cmocka_unit_test(a_cube_is_subdivided_by_the_rules),
         cmocka_unit_test(colliders_fill_the_scalp_from_inside),

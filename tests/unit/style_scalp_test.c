@@ -106,6 +106,23 @@ static void roots_lie_on_the_promised_skull(void** state)
     hair_asset_destroy(cut.asset);
 }
 
+// Behind the ears hair grows from the level of their middle, about 1.60 m, and lower. Hair that is
+// combed up bared the skin there.
+static void hair_grows_behind_the_ears(void** state)
+{
+    (void)state;
+    struct hair_test_cut cut = hair_test_cut_style(&test, HAIR_STYLE_BUN);
+    for (float degrees = 108; degrees <= 125; degrees += 1) {
+        float azimuth = degrees / 57.29578f, lowest = INFINITY;
+        for (uint32_t i = 0; i < cut.info.scalp_vertex_count; ++i) {
+            hair_vec3 p = hair_test_cut_scalp(&cut, i), u = hair_skull_unit(p);
+            if (fabsf(fabsf(atan2f(u.x, u.z)) - azimuth) < 0.2f) lowest = fminf(lowest, p.y);
+        }
+        assert_true(hair_scalp_hairline(azimuth) < 1.61f && lowest < 1.61f);
+    }
+    hair_asset_destroy(cut.asset);
+}
+
 // Check a style without a parting. The sides of a parting are a comb's line apart.
 static void roots_are_spread_evenly(void** state)
 {
@@ -152,6 +169,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         TEST(the_scalp_is_one_sheet_of_fat_triangles),
         TEST(roots_lie_on_the_promised_skull),
+        TEST(hair_grows_behind_the_ears),
         TEST(roots_are_spread_evenly),
         TEST(no_triangle_lies_across_the_parting),
     };

@@ -29,11 +29,12 @@ MORPHS = {
     "faceunits01/targets/faceunits/eyeBlinkLeft.target": 0.16,
     "faceunits01/targets/faceunits/eyeBlinkRight.target": 0.16,
 }
-# The skull of the built-in haircuts, and its hairline by azimuth in degrees and height in m.
+# The skull of the built-in haircuts, and the lower edge of the skin that lies on the skull, by azimuth in
+# degrees and height in m.
 SKULL, CENTRE = np.array([0.077, 0.098, 0.096]), np.array([0, 1.63, 0])
-HAIRLINE = np.array([[0, 1.692], [22, 1.693], [40, 1.694], [52, 1.679], [62, 1.652], [71, 1.624], [80, 1.611],
-                     [89, 1.626], [98, 1.639], [108, 1.634], [117, 1.608], [127, 1.580], [142, 1.564],
-                     [160, 1.559], [180, 1.558]])
+SEATED = np.array([[0, 1.692], [22, 1.693], [40, 1.694], [52, 1.679], [62, 1.652], [71, 1.624], [80, 1.611],
+                   [89, 1.626], [98, 1.639], [108, 1.634], [117, 1.608], [127, 1.580], [142, 1.564],
+                   [160, 1.559], [180, 1.558]])
 
 
 def smooth(start, end, x):
@@ -118,7 +119,7 @@ def seat_on_skull(p, ears):
     once, twice = np.linalg.norm(q / SKULL, axis=1), np.linalg.norm(q / SKULL / SKULL, axis=1)
     azimuth = np.degrees(np.arctan2(np.abs(p[:, 0]) / SKULL[0], p[:, 2] / SKULL[2]))
     body = np.arange(len(p)) < BODY
-    weight = smooth(-0.035, -0.002, p[:, 1] - np.interp(azimuth, HAIRLINE[:, 0], HAIRLINE[:, 1])) * body
+    weight = smooth(-0.035, -0.002, p[:, 1] - np.interp(azimuth, SEATED[:, 0], SEATED[:, 1])) * body
     move = -(once * (once - 1) / twice + 0.0002)
     is_ear = smooth(0, 0.3, ears) > 0.1
     for sign in (1, -1):

@@ -104,14 +104,19 @@ float head_above_hairline(point p)
 {
     // Azimuth from the face, in degrees, and height, in m.
     static const float hairline[][2] = {{0, 1.692f},   {22, 1.693f},  {40, 1.694f},  {52, 1.679f},
-                                        {62, 1.652f},  {71, 1.624f},  {80, 1.611f},  {89, 1.626f},
-                                        {98, 1.639f},  {108, 1.634f}, {117, 1.608f}, {127, 1.580f},
+                                        {62, 1.652f},  {71, 1.624f},  {80, 1.609f},  {89, 1.620f},
+                                        {98, 1.625f},  {108, 1.606f}, {117, 1.584f}, {127, 1.575f},
                                         {142, 1.564f}, {160, 1.559f}, {180, 1.558f}};
+    const int knots = (int)(sizeof hairline / sizeof *hairline);
     float azimuth = atan2f(fabsf(p.x) / 0.077f, p.z / 0.096f) * (180 / PI);
     int i = 0;
-    while (i < 13 && hairline[i + 1][0] < azimuth) ++i;
+    while (i < knots - 2 && hairline[i + 1][0] < azimuth) ++i;
+    // Interpolate as hair_scalp_hairline() does, by the spline of Catmull and Rom (1974).
+    float before = hairline[i > 0 ? i - 1 : 1][1], a = hairline[i][1], b = hairline[i + 1][1];
+    float after = hairline[i + 2 < knots ? i + 2 : i][1];
     float t = (azimuth - hairline[i][0]) / (hairline[i + 1][0] - hairline[i][0]);
-    return p.y - head_mix(hairline[i][1], hairline[i + 1][1], fminf(fmaxf(t, 0), 1));
+    float cubic = 3 * (a - b) + after - before, square = 2 * before - 5 * a + 4 * b - after;
+    return p.y - (a + 0.5f * t * (b - before + t * (square + t * cubic)));
 }
 
 // Return the distance of p from the ellipsoid of the skull, to first order.
