@@ -2,20 +2,23 @@
 // picture with the arguments beside its caption. Paths are relative to the folder that make runs
 // in.
 #define CLOSE "tools/scenes/portrait.json "
-#define FINE "--followers 60000 --set strand.radius=7e-5 "
+#define FINE "--followers 60000 --set strand.radius=7e-5 --guides 400 "
+#define BLUNT FINE "--set strand.length_variation=0.15 "
+#define CROPPED \
+    FINE "--set strays.fraction=0.15 --set strays.distance=0,0.03,0.05,0.07,0.08,0.08,0.08,0.08 "
 // One guide per lock. Wide curls form fewer locks.
 #define TYPE(name, locks) \
     CLOSE "--set strand.radius=9e-5 --followers 24000 --set look=" name " --guides " locks
 
 ROW("Haircuts")
 PICTURE("Long, parted in the middle", CLOSE FINE)
-PICTURE("Bob", CLOSE FINE "--style bob")
-PICTURE("Short", CLOSE FINE "--style short")
+PICTURE("Bob", CLOSE BLUNT "--style bob")
+PICTURE("Short", CLOSE CROPPED "--style short")
 PICTURE("Ponytail", FINE "--scene ponytail --motion still --frames 0:1")
 
 ROW("Haircuts that are cut close or tied up")
-PICTURE("Fringe", CLOSE FINE "--style fringe")
-PICTURE("Fade", CLOSE FINE "--style fade")
+PICTURE("Fringe", CLOSE BLUNT "--style fringe")
+PICTURE("Fade", CLOSE CROPPED "--style fade")
 PICTURE("Bun", FINE "--scene bun --motion still --frames 0:1")
 PICTURE("Braid", FINE "--scene braid --motion still --frames 0:1")
 
@@ -114,4 +117,6 @@ PICTURE("15 % of the strands, zoomed in",
         "lod.segment_fraction=0.5")
 #undef CLOSE
 #undef FINE
+#undef BLUNT
+#undef CROPPED
 #undef TYPE

@@ -11,20 +11,25 @@
 #define BEHIND " 'camera': {'eye': [0.97, 1.66, -0.45], 'target': [0.0, 1.52, 0.0], 'fov': 27}"
 
 // A warm key light from the side puts highlights along the hair. A cool light from behind rims the
-// hair, and a weak one beside the camera fills the shadows of the face. A few strands fly away from
-// the others and break the outline, and some kink.
-#define STUDIO                                                                                               \
+// hair, and a weak one beside the camera fills the shadows of the face.
+#define LIGHTS                                                                                               \
     "'light': {'direction': [0.75, 0.75, 0.35], 'color': [4.6, 4.3, 3.9], 'ambient': [0.42, 0.45, 0.5]}, "   \
-    "'lights': [{'direction': [0.35, 0.5, -0.95], 'color': [1.1, 1.15, 1.25]}], "                            \
-    "'settings': {'self_shadow.method': 'strands', 'self_shadow.cell': 0.006, 'shading.roughness.along': "   \
-    "0.2, "                                                                                                  \
-    "'shading.roughness.round': 0.35, "                                                                      \
-    "'strand.length_variation': 0.45, 'strand.taper': '1,1,1,0.98,0.92,0.8,0.55,0.15', 'color.spread': "     \
-    "0.5, "                                                                                                  \
-    "'color.hue_spread': 0.12, 'shading.roughness_spread': 0.2, 'color.root_darkening': 0.35, "              \
-    "'strays.fraction': 0.03, 'strays.distance': '0,0.02,0.03,0.035,0.035,0.035,0.035,0.035', "              \
+    "'lights': [{'direction': [0.35, 0.5, -0.95], 'color': [1.1, 1.15, 1.25]}], "
+// A few strands fly away from the others and break the outline, and some kink.
+#define SETTINGS                                                                                             \
+    "'self_shadow.method': 'strands', 'self_shadow.cell': 0.006, 'shading.roughness.along': 0.2, "           \
+    "'shading.roughness.round': 0.35, 'strand.taper': '1,1,1,0.98,0.92,0.8,0.55,0.15', 'color.spread': "     \
+    "0.5, 'color.hue_spread': 0.12, 'shading.roughness_spread': 0.2, 'color.root_darkening': 0.35, "         \
     "'strays.frizz_fraction': 0.12, 'strays.frizz': '0,0.0015,0.002,0.002,0.002,0.002,0.002,0.002', "        \
-    "'strays.frizz_wavelength': 0.035}"
+    "'strays.frizz_wavelength': 0.035"
+#define FLYAWAY "'strays.fraction': 0.03, 'strays.distance': '0,0.02,0.03,0.035,0.035,0.035,0.035,0.035'"
+#define STUDIO LIGHTS "'settings': {" SETTINGS ", 'strand.length_variation': 0.45, " FLYAWAY "}"
+// Hair that is cut to one length needs more locks, whose ends are close together.
+#define BLUNT LIGHTS "'settings': {" SETTINGS ", 'guides': 400, 'strand.length_variation': 0.15, " FLYAWAY "}"
+// Short strands lie less in line with each other.
+#define CROPPED                                                                                              \
+    LIGHTS "'settings': {" SETTINGS ", 'guides': 400, 'strand.length_variation': 0.35, "                     \
+           "'strays.fraction': 0.15, 'strays.distance': '0,0.03,0.05,0.07,0.08,0.08,0.08,0.08'}"
 
 const struct hair_builtin hair_builtin_scenes[] = {
     {"demo", "{'style': 'long', 'motion': 'demo', 'settle': 0.5, 'frames': 120, 'picture': 30, " CAMERA
@@ -35,9 +40,9 @@ const struct hair_builtin hair_builtin_scenes[] = {
     {"afro", "{'style': 'afro', 'motion': 'demo', 'settle': 0.5, 'frames': 120, 'picture': 45,"
              " 'camera': {'eye': [0.53, 1.62, 1.06], 'target': [0.0, 1.58, 0.0], 'fov': 24}, " STUDIO "}"},
     {"fringe", "{'style': 'fringe', 'motion': 'demo', 'settle': 0.5, 'frames': 120, 'picture': 30, " CAMERA
-               ", " STUDIO "}"},
+               ", " BLUNT "}"},
     {"fade", "{'style': 'fade', 'motion': 'demo', 'settle': 0.5, 'frames': 120, 'picture': 30, " CAMERA
-             ", " STUDIO "}"},
+             ", " CROPPED "}"},
     {"bun", "{'style': 'bun', 'motion': 'demo', 'settle': 0.5, 'frames': 120, 'picture': 45," BEHIND
             ", " STUDIO "}"},
     {"braid", "{'style': 'braid', 'motion': 'demo', 'settle': 0.5, 'frames': 120, 'picture': 45," BEHIND
@@ -60,25 +65,31 @@ const struct hair_builtin hair_builtin_scenes[] = {
 // Settings that keep each haircut in shape against gravity. Every style sets every key, because one
 // style can replace another. A curl needs about eight vertices a turn, more than a wave. Followers
 // of wide curls follow one guide, because the mean of curls of different phases is no curl.
-#define SMOOTH "'guide_vertices': 32, 'strand.segments': 24, " EVEN
-#define CURLED "'guide_vertices': 64, 'strand.segments': 64, " LOCKS
-#define COILED "'guide_vertices': 64, 'strand.segments': 64, " EVEN
+#define SMOOTH "'guide_vertices': 32, 'strand.segments': 24, "
+#define CURLED "'guide_vertices': 64, 'strand.segments': 64, "
 #define EVEN "'clump.weight': '0,0,0.07,0.18,0.32,0.46,0.56,0.6', 'clump.width': 1"
+// Loose hair parts into pointed locks. Without them a veil of strands hangs before the face.
+#define POINTED                                                                                              \
+    "'clump.weight': '0,0.05,0.2,0.4,0.6,0.75,0.85,0.9', 'clump.width': '1,1,0.95,0.85,0.75,0.65,0.5,0.4'"
+// Stubble has no locks. Strands in parallel with one guide each would be blotches.
+#define UNPARTED "'clump.weight': '0,0,0,0.03,0.06,0.1,0.15,0.2', 'clump.width': 1"
 #define LOCKS                                                                                                \
     "'clump.weight': '0,0.4,0.75,0.92,0.97,1,1,1', 'clump.width': '1,0.9,0.75,0.62,0.55,0.52,0.55,0.65'"
+#define HELD(root, tip, angular)                                                                             \
+    "{'shape.frequency_root': " #root ", 'shape.frequency_tip': " #tip ", 'redblack.angular_hz': " #angular  \
+    ", "
 
 const struct hair_builtin hair_builtin_styles[] = {
-    {"long", "{'shape.frequency_root': 6, 'shape.frequency_tip': 1, 'redblack.angular_hz': 8, " SMOOTH "}"},
-    {"bob", "{'shape.frequency_root': 8, 'shape.frequency_tip': 3, 'redblack.angular_hz': 8, " SMOOTH "}"},
-    {"short", "{'shape.frequency_root': 10, 'shape.frequency_tip': 6, 'redblack.angular_hz': 8, " SMOOTH "}"},
-    {"ponytail",
-     "{'shape.frequency_root': 12, 'shape.frequency_tip': 1.5, 'redblack.angular_hz': 8, " SMOOTH "}"},
-    {"fringe", "{'shape.frequency_root': 8, 'shape.frequency_tip': 4, 'redblack.angular_hz': 8, " SMOOTH "}"},
-    {"fade", "{'shape.frequency_root': 12, 'shape.frequency_tip': 10, 'redblack.angular_hz': 8, " SMOOTH "}"},
-    {"bun", "{'shape.frequency_root': 12, 'shape.frequency_tip': 12, 'redblack.angular_hz': 8, " COILED "}"},
-    {"braid", "{'shape.frequency_root': 12, 'shape.frequency_tip': 2, 'redblack.angular_hz': 8, " COILED "}"},
-    {"curly", "{'shape.frequency_root': 8, 'shape.frequency_tip': 3, 'redblack.angular_hz': 4, " CURLED "}"},
-    {"afro", "{'shape.frequency_root': 12, 'shape.frequency_tip': 8, 'redblack.angular_hz': 8, " COILED "}"},
+    {"long", HELD(6, 1, 8) SMOOTH POINTED "}"},
+    {"bob", HELD(8, 3, 8) SMOOTH POINTED "}"},
+    {"short", HELD(10, 6, 8) SMOOTH POINTED "}"},
+    {"ponytail", HELD(12, 1.5, 8) SMOOTH EVEN "}"},
+    {"fringe", HELD(8, 4, 8) SMOOTH POINTED "}"},
+    {"fade", HELD(12, 10, 8) SMOOTH UNPARTED "}"},
+    {"bun", HELD(12, 12, 8) CURLED EVEN "}"},
+    {"braid", HELD(12, 2, 8) CURLED EVEN "}"},
+    {"curly", HELD(8, 3, 4) CURLED LOCKS "}"},
+    {"afro", HELD(12, 8, 8) CURLED EVEN "}"},
     {NULL, NULL},
 };
 
