@@ -255,7 +255,7 @@ static void grow_short(hair_vec3 root, float scale, uint32_t seed, struct hair_s
 {
     float top = hair_smooth(1.625f, 1.705f, root.y);
     struct walk walk = {
-        .comb = comb_from_parting(hair_style_parting(HAIR_STYLE_SHORT), root, 0.25f, 1.3f),
+        .comb = comb_from_parting(hair_style_parting(HAIR_STYLE_SHORT), root, 0.70f, 1.3f),
         .rise = hair_mix(0.25f, 0.32f, top),
         .clearance = hair_mix(0.005f, 0.013f, top) + 0.003f * hair_noise(root, 0.025f, seed),
         .lift = 0.02f,
@@ -363,7 +363,7 @@ static void grow_fade(hair_vec3 root, float scale, uint32_t seed, struct hair_st
 {
     float top = hair_smooth(1.615f, 1.705f, root.y + 0.15f * fmaxf(root.z, 0));
     struct walk walk = {
-        .comb = comb_from_parting(hair_style_parting(HAIR_STYLE_FADE), root, 0.25f, 1.3f),
+        .comb = comb_from_parting(hair_style_parting(HAIR_STYLE_FADE), root, 0.70f, 1.3f),
         .rise = hair_mix(0.35f, 0.40f, top),
         .clearance = hair_mix(0.002f, 0.012f, top) + top * 0.003f * hair_noise(root, 0.025f, seed),
         .lift = 0.02f,

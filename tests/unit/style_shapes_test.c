@@ -1,5 +1,5 @@
 // style_shapes_test.c - shapes of built-in haircuts: a bun is wound, strands of a braid cross, a
-// fringe ends above the brows, and a fade has stubble at its edge.
+// fringe ends above the brows, a fade has stubble at its edge, and short hair leaves the face.
 #include "lib/groom/style_body.h"
 #include "tests/support/cut.h"
 #include "tests/support/support.h"
@@ -131,6 +131,30 @@ static void a_fade_is_long_on_top_and_stubble_at_the_edge(void** state)
     hair_asset_destroy(cut.asset);
 }
 
+// Short hair of the temples is combed off the face. Hair that ran along the hairline drew the
+// outline of a wig.
+static void short_hair_leaves_the_temples(void** state)
+{
+    (void)state;
+    const hair_style styles[] = {HAIR_STYLE_SHORT, HAIR_STYLE_FADE};
+    const float limits[] = {0.55f, 0.46f};
+    for (uint32_t s = 0; s < 2; ++s) {
+        struct hair_test_cut cut = hair_test_cut_style(&test, styles[s]);
+        float back = 0, count = 0;
+        for (uint32_t i = 0; i < cut.info.strand_count; ++i) {
+            hair_vec3 root = vertex(&cut, i, 0), tip = vertex(&cut, i, cut.each - 1),
+                      unit = hair_skull_unit(root);
+            float azimuth = fabsf(atan2f(unit.x, unit.z)) * (180 / PI);
+            if (azimuth < 35 || azimuth > 75 || root.y > 1.69f) continue;
+            back += (root.z - tip.z) / guide_length(&cut, i), count += 1;
+        }
+        print_message("    %s: %.0f guides of the temples run back by %.2f of their length\n",
+                      hair_style_name(styles[s]), (double)count, (double)(back / count));
+        assert_true(count >= 6 && back / count > limits[s]);
+        hair_asset_destroy(cut.asset);
+    }
+}
+
 #define TEST(name) HAIR_TEST_WITH_HOST(name, &test)
 
 int main(void)
@@ -141,6 +165,7 @@ int main(void)
         TEST(a_braid_is_narrow_at_its_end),
         TEST(a_fringe_ends_above_the_brows),
         TEST(a_fade_is_long_on_top_and_stubble_at_the_edge),
+        TEST(short_hair_leaves_the_temples),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
