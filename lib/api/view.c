@@ -17,7 +17,9 @@ static hair_result ensure_programs(hair_instance* hair, struct hair_draw_plan* p
     if (shows) HAIR_TRY(hair_gl_ensure_program(gl, HAIR_GL_COLLIDERS));
     if (shows && view->slice) HAIR_TRY(hair_gl_ensure_program(gl, HAIR_GL_SLICE));
     if (shows) return HAIR_OK;
-    hair_draw_bind_plan(&hair->renderer, plan); // Machine code depends on the formats of textures.
+    // Machine code depends on the formats of textures.
+    HAIR_TRY(hair_draw_ensure_textures(&hair->renderer, plan));
+    hair_draw_bind_plan(&hair->renderer, plan);
     hair_result result = hair_draw_precompile(&hair->renderer, plan, colliders);
     hair_lighting_unbind(hair->renderer.lighting);
     return result;

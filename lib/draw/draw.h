@@ -101,6 +101,8 @@ void hair_renderer_set_attachment(struct hair_renderer* renderer, bool has_fixed
 
 // Make the resources that a plan needs, whose passes must be compiled.
 hair_result hair_draw_ensure_resources(struct hair_renderer* renderer, struct hair_draw_plan* plan);
+// Make the textures of a plan that machine code depends on, before programs are compiled.
+hair_result hair_draw_ensure_textures(struct hair_renderer* renderer, struct hair_draw_plan* plan);
 // Begin or continue frame number `frame`. Free the resources that recent frames did not use.
 void hair_draw_free_unused(struct hair_renderer* renderer, uint32_t frame);
 // Free all resources.

@@ -106,14 +106,25 @@ static const struct {
     [HAIR_RESOURCE_GUIDE_TANGENTS] = {NULL, hair_draw_free_guide_tangents},
 };
 
+static bool needs_fibres(const struct hair_renderer* renderer, const hair_view* view)
+{
+    return view->pass == HAIR_PASS_COLOR && renderer->geometry->look.shading.model == HAIR_SHADING_FIBRES;
+}
+
+hair_result hair_draw_ensure_textures(struct hair_renderer* renderer, struct hair_draw_plan* plan)
+{
+    if (!needs_fibres(renderer, plan->view)) return HAIR_OK;
+    renderer->last_used[HAIR_RESOURCE_FIBRES] = renderer->frame;
+    return ensure_fibres(renderer, plan);
+}
+
 // Find the resources that a plan needs.
 static void find_needed(const struct hair_renderer* renderer, const struct hair_draw_plan* plan,
                         bool needed[HAIR_RESOURCES])
 {
     const hair_view* view = plan->view;
     bool is_per_view = plan->vertices == HAIR_VERTICES_PER_VIEW, is_lit = plan->light_values > 0;
-    needed[HAIR_RESOURCE_FIBRES] =
-        view->pass == HAIR_PASS_COLOR && renderer->geometry->look.shading.model == HAIR_SHADING_FIBRES;
+    needed[HAIR_RESOURCE_FIBRES] = needs_fibres(renderer, view);
     needed[HAIR_RESOURCE_STRAND_LIST] = plan->has_strand_list;
     needed[HAIR_RESOURCE_OCCLUSION] = plan->has_occlusion;
     needed[HAIR_RESOURCE_VERTEX_CACHE] = plan->vertices == HAIR_VERTICES_CACHED || is_lit;

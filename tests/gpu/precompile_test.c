@@ -269,6 +269,20 @@ static void frames_compile_nothing_after_precompile(void** state)
     }
 }
 
+// Check that the table of fibres is there before the program of shades first runs. A software
+// rasterizer would compile the program again for its format.
+static void precompile_makes_textures_before_programs(void** state)
+{
+    struct fixture f = start(*state);
+    hair_view view = hair_test_view_by(HAIR_RENDER_PATH_COMPUTE);
+    bool ready = false;
+    shade_strands(&f, &view);
+    assert_int_equal(f.scene.hair->lighting.fibres.texture, 0);
+    hair_test_ok(f.scene.test, hair_precompile(f.scene.hair, &view, &ready));
+    assert_int_not_equal(f.scene.hair->lighting.fibres.texture, 0);
+    finish(&f);
+}
+
 static void precompile_without_threads_compiles_one_program_a_call(void** state)
 {
     struct fixture f = start(*state);
@@ -325,6 +339,7 @@ int main(void)
     if (hair_test_skips()) return 0;
     const struct CMUnitTest tests[] = {
         HAIR_TEST(frames_compile_nothing_after_precompile),
+        HAIR_TEST(precompile_makes_textures_before_programs),
         HAIR_TEST(precompile_without_threads_compiles_one_program_a_call),
         HAIR_TEST(frame_before_precompile_is_ready_draws),
         HAIR_TEST(precompile_refuses_null_and_invalid_views),
