@@ -4,7 +4,6 @@
 #version 450 core
 #include "draw/strand.glsl"
 #include "workgroup.glsl"
-#include "strands/packed.glsl"
 #if defined(HAIR_SIDES) && !defined(HAIR_LINES)
 #include "draw/ribbon.glsl"
 #endif

@@ -2,6 +2,7 @@
 // histogram. With HAIR_SCATTER it scatters them to the positions that the prefix sum of the
 // histogram gives. One thread per segment.
 #version 450 core
+#define HAIR_POSITION_SLOT HAIR_BIND_RIBBON_POSITION
 #include "draw/vertex_cache.glsl"
 #include "workgroup.glsl"
 layout(local_size_x = HAIR_GROUP_SIZE) in;
@@ -21,8 +22,7 @@ vec3 position_at(uint number, float t)
 {
     int   at;
     float fraction = place_between(number, t, at);
-    return mix(texelFetch(cached_position_texture, at).xyz, texelFetch(cached_position_texture, at + 1).xyz,
-               fraction);
+    return mix(position_of(at).xyz, position_of(at + 1).xyz, fraction);
 }
 
 void main()

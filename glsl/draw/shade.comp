@@ -3,7 +3,6 @@
 #version 450 core
 #include "draw/strand.glsl"
 #include "strands/vertex_range.glsl"
-#include "strands/packed.glsl"
 layout(local_size_x = HAIR_GROUP_SIZE) in;
 
 layout(std430, binding = HAIR_BIND_SHADED) writeonly restrict buffer shaded_buffer { uvec2 shaded[]; };

@@ -4,6 +4,7 @@
 
 // First, because a file is inserted at its first mention, even in a branch that is left out.
 #include "strands/follower.glsl"
+#include "strands/packed.glsl"
 #ifdef HAIR_VERTEX_CACHE
 #include "draw/vertex_cache.glsl"
 #else

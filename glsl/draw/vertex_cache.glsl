@@ -1,9 +1,30 @@
 // vertex_cache.glsl - the position of a follower, read from the vertex cache that expand.comp
 // writes. It replaces strands/evaluate.glsl.
 #include "strands/follower.glsl"
+#include "strands/packed.glsl"
 
+#ifdef HAIR_STORED
+#ifndef HAIR_POSITION_SLOT
+#define HAIR_POSITION_SLOT HAIR_BIND_CACHED_POSITION
+#endif
+layout(std430, binding = HAIR_POSITION_SLOT) readonly restrict buffer cached_position_buffer
+{
+    vec4 cached_position[];
+};
+layout(std430, binding = HAIR_BIND_CACHED_TANGENT) readonly restrict buffer cached_tangent_buffer
+{
+    uvec2 cached_tangent[];
+};
+
+vec4 position_of(int at) { return cached_position[at]; }
+vec3 tangent_of(int at) { return unpack_tangent(cached_tangent[at]); }
+#else
 layout(binding = HAIR_UNIT_CACHED_POSITION) uniform samplerBuffer cached_position_texture;
 layout(binding = HAIR_UNIT_CACHED_TANGENT) uniform samplerBuffer cached_tangent_texture;
+
+vec4 position_of(int at) { return texelFetch(cached_position_texture, at); }
+vec3 tangent_of(int at) { return texelFetch(cached_tangent_texture, at).xyz * 2.0 - 1.0; }
+#endif
 
 // Return the fraction by which t lies beyond a cached vertex. `at` is the index of the vertex. Near
 // a vertex the fraction is exactly 0 or 1.
@@ -20,19 +41,17 @@ float place_between(uint number, float t, out int at)
 hair_point evaluate(hair_follower follower, uint number, float t)
 {
     int   at;
-    float fraction  = place_between(number, t, at);
-    vec4 vertex =
-        mix(texelFetch(cached_position_texture, at), texelFetch(cached_position_texture, at + 1), fraction);
-    vec3  a      = texelFetch(cached_tangent_texture, at).xyz * 2.0 - 1.0;
-    vec3  b      = texelFetch(cached_tangent_texture, at + 1).xyz * 2.0 - 1.0;
+    float fraction = place_between(number, t, at);
+    vec4  vertex   = mix(position_of(at), position_of(at + 1), fraction);
+    vec3  a = tangent_of(at), b = tangent_of(at + 1);
     return hair_point(vertex.xyz, direction_or(mix(a, b, fraction), a), vertex.w);
 }
 #else
 hair_point evaluate(hair_follower follower, uint number, float t)
 {
     int  at     = int(number * (draw.segments + 1u) + uint(t * float(draw.segments) + 0.5));
-    vec4 vertex = texelFetch(cached_position_texture, at);
-    return hair_point(vertex.xyz, texelFetch(cached_tangent_texture, at).xyz * 2.0 - 1.0, vertex.w);
+    vec4 vertex = position_of(at);
+    return hair_point(vertex.xyz, tangent_of(at), vertex.w);
 }
 #endif
 

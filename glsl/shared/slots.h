@@ -161,7 +161,8 @@
 // Depth-only passes have a uint[] with y alone.
 #define HAIR_BIND_NEAREST 0
 #define HAIR_BIND_TILE 1    // uint[] per tile. 1 if the tile contains hair.
-// Vertices of ribbons, as at HAIR_BIND_CACHED_POSITION and HAIR_BIND_CACHED_TANGENT. Read-only.
+// Vertices of ribbons, as at HAIR_BIND_CACHED_POSITION and HAIR_BIND_CACHED_TANGENT. Read-only. The
+// passes that sort segments have the positions too.
 #define HAIR_BIND_RIBBON_POSITION 6
 #define HAIR_BIND_RIBBON_TANGENT 7
 // Buffers of the self-shadowing passes.

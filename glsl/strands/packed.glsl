@@ -1,5 +1,8 @@
 // packed.glsl - packing of strand vertices for storage. See HAIR_BIND_CACHED_TANGENT and
 // HAIR_BIND_SHADED.
+#ifndef HAIR_PACKED_GLSL
+#define HAIR_PACKED_GLSL
+
 #include "shared.h"
 
 uvec2 pack_tangent(vec3 tangent)
@@ -18,3 +21,5 @@ uvec2 pack_color(vec3 color)
     color = min(color, HAIR_MAX_LIGHT);
     return uvec2(packHalf2x16(color.rg), packHalf2x16(vec2(color.b, 1.0)));
 }
+
+#endif

@@ -47,11 +47,11 @@ static hair_result ensure_reflectance(struct hair_renderer* renderer)
     hair_lighting_write_params(lighting, &geometry->look, NULL, NULL, &params);
     hair_gl_write_uniform(gl, geometry->params, sizeof params, &params);
     hair_geometry_bind(geometry);
-    hair_geometry_bind_vertex_cache(geometry);
     if (is_painted) hair_gl_bind_texture(gl, HAIR_UNIT_GROOM_COLOR, lighting->groom_color_texture);
-    hair_gl_bind_buffers(gl, GL_SHADER_STORAGE_BUFFER, HAIR_BIND_SHADED, 1, &own->color);
+    const GLuint buffers[] = {geometry->vertex_cache.position, geometry->vertex_cache.tangent, own->color};
+    hair_gl_bind_buffers(gl, GL_SHADER_STORAGE_BUFFER, HAIR_BIND_CACHED_POSITION, 3, buffers);
     hair_gl_run(gl, pass, geometry->patches * params.chunks);
-    hair_gl_bind_buffers(gl, GL_SHADER_STORAGE_BUFFER, HAIR_BIND_SHADED, 1, NULL);
+    hair_gl_bind_buffers(gl, GL_SHADER_STORAGE_BUFFER, HAIR_BIND_CACHED_POSITION, 3, NULL);
     own->color_look = geometry->look;
     own->color_generation = gl->program_generation;
     own->color_lengths = geometry->lengths->version;

@@ -55,9 +55,13 @@ void hair_draw_sort(struct hair_renderer* renderer)
     hair_gl_fill_buffer(gl, sorted_segments->bucket, 0);
     hair_gl_bind_buffers(gl, GL_SHADER_STORAGE_BUFFER, HAIR_BIND_HISTOGRAM, 2, sorts);
     hair_gl_bind_buffers(gl, GL_SHADER_STORAGE_BUFFER, HAIR_BIND_STRAND, 2, strands);
+    hair_gl_bind_buffers(gl, GL_SHADER_STORAGE_BUFFER, HAIR_BIND_RIBBON_POSITION, 1,
+                         &renderer->geometry->vertex_cache.position);
     hair_gl_run(gl, HAIR_GL_HISTOGRAM, groups);
     hair_gl_run(gl, HAIR_GL_PREFIX_SUM, 1);
     hair_gl_run(gl, HAIR_GL_SCATTER, groups);
+    // Unbind the buffer before it can be deleted, as in hair_geometry_ensure_vertex_cache().
+    hair_gl_bind_buffers(gl, GL_SHADER_STORAGE_BUFFER, HAIR_BIND_RIBBON_POSITION, 1, NULL);
 }
 
 void hair_draw_issue_sorted_segments(struct hair_renderer* renderer, const struct hair_draw_plan* plan)

@@ -103,14 +103,14 @@ static void shade_cached_vertices(struct hair_renderer* renderer, const struct h
                                   uint32_t chunks)
 {
     struct hair_gl* gl = renderer->gl;
-    HAIR_ASSERT(renderer->geometry->vertex_cache.shaded && chunks > 0);
-    hair_gl_bind_buffers(gl, GL_SHADER_STORAGE_BUFFER, HAIR_BIND_SHADED, 1,
-                         &renderer->geometry->vertex_cache.shaded);
+    const struct hair_vertex_cache* cache = &renderer->geometry->vertex_cache;
+    const GLuint buffers[] = {cache->position, cache->tangent, cache->shaded};
+    HAIR_ASSERT(cache->shaded && chunks > 0);
+    hair_gl_bind_buffers(gl, GL_SHADER_STORAGE_BUFFER, HAIR_BIND_CACHED_POSITION, 3, buffers);
     hair_gl_run_with(gl, plan->shade, plan->shade_program, renderer->geometry->patches * chunks);
-    // Unbind the buffer before it can be deleted. Mesa unbinds a deleted buffer with
-    // glBindBufferBase, which also clears the application's generic binding.
-    hair_gl_bind_buffers(gl, GL_SHADER_STORAGE_BUFFER, HAIR_BIND_SHADED, 1, NULL);
-    hair_gl_bind_texture(gl, HAIR_UNIT_SHADED, renderer->geometry->vertex_cache.shaded_texture);
+    // Unbind the buffers before they can be deleted, as above.
+    hair_gl_bind_buffers(gl, GL_SHADER_STORAGE_BUFFER, HAIR_BIND_CACHED_POSITION, 3, NULL);
+    hair_gl_bind_texture(gl, HAIR_UNIT_SHADED, cache->shaded_texture);
 }
 
 void hair_draw_write_vertices(struct hair_renderer* renderer, const struct hair_draw_plan* plan,
