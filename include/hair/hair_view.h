@@ -418,9 +418,12 @@ HAIR_API hair_result hair_draw_list(hair_instance* const* list, uint32_t count,
 ///
 /// Drivers with KHR_parallel_shader_compile compile in the background. A call begins or finishes at
 /// most four programs, and begins nothing after 2 ms. The call sets the driver's number of compiler
-/// threads to the maximum. On other drivers each call compiles one program and waits for it. This
-/// also holds for programs of a hair_shader on every driver. Software rasterizers compile machine
-/// code when a program first runs. There a call compiles one program, or runs one on nothing.
+/// threads to the maximum. NVIDIA's driver writes machine code while a call finishes a program,
+/// which takes up to 0.2 s if its own cache on the disk does not have the program.
+///
+/// On other drivers each call compiles one program and waits for it. This also holds for programs
+/// of a hair_shader on every driver. Software rasterizers compile machine code when a program first
+/// runs. There a call compiles one program, or runs one on nothing.
 ///
 /// @param view View to prepare. NULL prepares hair_step() only.
 /// @param ready Receives true if all programs are compiled, and false otherwise. Unchanged on
