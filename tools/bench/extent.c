@@ -67,7 +67,7 @@ uint32_t bench_extent_map(const struct bench_studio* studio, const struct hair_m
 {
     uint32_t size = HAIR_SHADOW_SIZE;
     while (size > MIN_MAP && bench_extent_fits(studio, light, size / 2)) size /= 2;
-    if (!studio->shot.has_lod || !studio->shot.lod.per_patch) return size;
+    if (!studio->shot.has_lod || !studio->shot.lod.per_patch || studio->shot.map_whole) return size;
     while (size > MIN_MAP && TEXELS * bench_extent_texel(studio, camera, light, size / 2) <= 1) size /= 2;
     return size;
 }

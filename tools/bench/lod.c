@@ -1,8 +1,9 @@
 // lod.c - Suite `lod`, thinned or distant hair against full detail. The suite measures coverage,
-// temporal stability of a walk away from the hair, and speed far away.
+// colour, temporal stability of a walk away from the hair, and speed far away.
 #include "tools/bench/picture.h"
 #include "tools/bench/studio.h"
 #include "tools/bench/flicker.h"
+#include "tools/bench/lod_color.h"
 #include "tools/common/file.h"
 
 #include <epoxy/gl.h>
@@ -14,11 +15,37 @@
 #define FAR 16 // end of the walk, as a multiple of the start distance
 #define AWAY 8 // distance of the case `far`, as a multiple of the scene's distance
 
-static const char* const columns[] = {
-    "case",          "method",    "scene",       "strands", "size",          "samples",
-    "away",          "frames",    "coverage",    "flip",    "flip_without",  "flip_more",
-    "segments_from", "segments",  "fewer_times", "between", "between_truth", "between_halves",
-    "calm",          "calm_most", "ms_near",     "ms",      "rate",          NULL};
+static const char* const columns[] = {"case",
+                                      "method",
+                                      "scene",
+                                      "strands",
+                                      "size",
+                                      "samples",
+                                      "away",
+                                      "frames",
+                                      "coverage",
+                                      "flip",
+                                      "flip_without",
+                                      "flip_more",
+                                      "segments_from",
+                                      "segments",
+                                      "fewer_times",
+                                      "between",
+                                      "between_truth",
+                                      "between_halves",
+                                      "calm",
+                                      "calm_most",
+                                      "ms_near",
+                                      "ms",
+                                      "rate",
+                                      "light",
+                                      "red",
+                                      "green",
+                                      "blue",
+                                      "color_error",
+                                      "limit",
+                                      "pass",
+                                      NULL};
 
 static const char* const scenes[] = {"still", "short", "afro"};
 static const float fractions[] = {0.5f, 0.2f, 0.1f, 0.05f};
@@ -219,6 +246,7 @@ static void run_suite(struct bench* bench)
 {
     struct scene scene = {.bench = bench, .name = scenes[0]};
     measure_coverage(bench);
+    bench_measure_lod_color(bench);
     measure(&scene, "walk", walk_away);
     measure(&scene, "far", look_from_far);
     bench_measure_flicker(bench);

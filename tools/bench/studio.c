@@ -252,7 +252,7 @@ static bool draw_shadow(struct bench_studio* studio, const struct hair_matrices*
     view.pass = HAIR_PASS_DEPTH;
     if (studio->shot.map_apart) view.render_path = studio->shot.map_path;
     if (bench_extent_fits(studio, light, size)) view.primitive = HAIR_PRIMITIVE_LINES;
-    lod.importance *= fminf(1, bench_extent_texel(studio, camera, light, size));
+    if (!studio->shot.map_whole) lod.importance *= fminf(1, bench_extent_texel(studio, camera, light, size));
     if (studio->shot.has_lod) view.lod = &lod;
     if (!hair_shadow_map_make(&studio->map, HAIR_SHADOW_OPACITY, (int)size)) return false;
     if (shows_head(studio)) {

@@ -23,6 +23,7 @@ struct bench_shot {
     bool map_apart; // draws the shadow map by map_path instead of the view's path
     hair_render_path map_path; // path of the shadow map if map_apart
     bool map_fits; // makes the shadow map as coarse as strands are wide, with one-texel lines
+    bool map_whole; // draws the shadow map in full size, with `lod` as for the picture
     bool has_lod; // enables `lod`
     hair_lod lod;
     uint32_t samples; // OpenGL samples per pixel
