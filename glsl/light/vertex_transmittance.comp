@@ -10,8 +10,8 @@
 // fraction of sample points that nothing occludes in the map. The samples lie on the half segments
 // beside the vertex and across the strand, where the map's own level of detail draws the strand.
 //
-// A wide strand of a far view stands for several, and the eye sees the front ones. Constants that
-// are fitted to the light of all strands adjust its light.
+// A wide strand stands for several. Constants that are fitted to the light of all strands adjust
+// its light, see light/wide_strands.glsl.
 //
 // For each light the pass writes two halves: the fraction that meets no strand, and the number of
 // strands met. Before them are two halves for the visible fraction of the sky, and the order of the
@@ -20,7 +20,7 @@
 #include "strands/vertex_range.glsl"
 #include "light/density.glsl"
 #include "light/lights.glsl"
-#include "light/strand_in_map.glsl"
+#include "light/wide_strands.glsl"
 
 layout(std430, binding = HAIR_BIND_DENSITY_LIGHT) readonly restrict buffer node_buffer
 {
@@ -60,27 +60,6 @@ float around(uint which)
     for (uint k = 0u; k < 8u; ++k)
         if (weight[k] > 0.0) sum += weight[k] * light_of_node[corner[k] * draw.light_values + which];
     return sum;
-}
-
-// Return how much wider the view draws a strand than the shadow map of a light does, from 0 to 6.
-// Lights without a map return 0.
-float find_gain(uint map, float widened)
-{
-    float ratio = map < uint(HAIR_SHADOW_MAPS) ? max(widened / widened_in[map], 1.0) : 1.0;
-    return 6.0 * (ratio - 1.0) / (ratio + 19.0);
-}
-
-// Return the open fraction of a light for the visible part of a strand that stands for several.
-// `between` is the cosine of the angle between light and eye. `cut` is the fraction of the segments
-// that are left out, which cut curls off.
-float open_in_front(float open, float met, float order, float between, float gain, float cut)
-{
-    const float FIT_FRONT = 0.02, FIT_SEEN = 0.02, FIT_SEEN_CURLED = 0.33, FIT_WAVY = 6.0;
-    if (gain == 0.0) return open;
-    float curled = cut * (1.0 - order), wavy = order * (1.0 - order);
-    float power  = 1.0 - gain * (FIT_FRONT + (FIT_SEEN + FIT_SEEN_CURLED * curled) * between);
-    open         = pow(max(open, 1e-6), max(power, 0.0));
-    return open + min(FIT_WAVY * wavy * wavy * cut * gain, 1.0) * (1.0 - open) * exp(-0.5 * met);
 }
 
 // Return the number of strands met on the way to a light at the distance `reach`, m. Cells of far
@@ -134,7 +113,8 @@ void light(density_grid grid, uint vertex, vertex_range run)
     vec3 tangent = direction_or(after - before, vec3(0.0, 1.0, 0.0));
     float order  = find_order(vertex, k, max(length(after - at), length(at - before)));
     find_corners(grid, place_in(grid, at));
-    light_of_vertex[vertex * draw.light_values] = packHalf2x16(vec2(around(0u), order));
+    float wider = 2.0 * strand_vertex[vertex].w * (run.widened - 1.0) / grid.cell;
+    light_of_vertex[vertex * draw.light_values] = packHalf2x16(vec2(sky_past_wide(around(0u), wider), order));
     for (uint i = 0u; i < draw.lights; ++i) {
         vec4  place = draw.light[i * HAIR_LIGHT_VECTORS + HAIR_LIGHT_TO];
         vec3  to    = beam_at(i, at).to;
@@ -146,7 +126,9 @@ void light(density_grid grid, uint vertex, vertex_range run)
         if (map < uint(HAIR_SHADOW_MAPS)) {
             strand_bit s = find_bit(vertex, k, widened_in[map], run.thickness / run.widened);
             vec3 to_eye = normalize(draw.eye.w > 0.0 ? draw.eye.xyz - at : draw.eye.xyz);
-            open = open_in_front(open_in(map, i, to, s), met, order, dot(to, to_eye), gain, run.cut);
+            float between = dot(to, to_eye);
+            open = open_past_wide(open_in(map, i, to, s), between, widened_in[map]);
+            open = open_in_front(open, met, order, between, gain, run.cut);
         }
         light_of_vertex[vertex * draw.light_values + 1u + i] = packHalf2x16(vec2(open, met));
     }

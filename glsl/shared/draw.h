@@ -135,6 +135,8 @@ struct hair_draw_params {
     hair_uint draw_instances; // Instances of listed strands in a draw.
     float     curl_slope;  // Mean square slope of curls, see hair_lighting_find_curl().
     float     curl_rate;   // Phase of curls by length along a strand, radians/m.
+    hair_uint grid_has_all; // 1 if the density grid has the strands that the view leaves out too.
+    hair_uint unused0, unused1, unused2;
     hair_vec4 map_weights; // Weights of the sets of maps. Their sum is 1.
     // Parameters of the level of detail.
 

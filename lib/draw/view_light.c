@@ -58,6 +58,7 @@ hair_result hair_draw_ensure_self_shadow(struct hair_renderer* renderer, struct 
         whole.lod = NULL; // All views of a step share the grid.
         write_shadow_params(renderer, plan, &whole, &all);
         drawn.origin.w = all.origin.w; // The size of the cells in the shared grid.
+        drawn.grid_has_all = 1;
     }
     uint32_t nodes = count_grid_nodes(renderer, (double)all.origin.w);
     hair_result result = hair_lighting_ensure_grid(renderer->lighting, nodes, all.light_values);

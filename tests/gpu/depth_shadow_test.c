@@ -8,7 +8,7 @@
 
 #include "tests/support/haircut.h"
 
-enum { SIDE = 96, VALUES = 4 * SIDE * SIDE, MAP = 2048, FOLLOWERS = 3000, MANY = 12000 };
+enum { SIDE = 96, VALUES = 4 * SIDE * SIDE, MAP = 2048, FOLLOWERS = 3000, MANY = 12000, DENSE = 36000 };
 
 #define WIDTH 1.2f // m, radii of all strands, as wide together as those of a head
 
@@ -168,6 +168,40 @@ static void level_of_detail_keeps_light(void** state)
     }
 }
 
+// Draw a twentieth of the strands, in the picture and in the shadow map, with the sun beside the
+// eye, and in the light of a sky. Dense black hair shows the light that meets no strand. Views of
+// the same step would share the density grid of all strands.
+static void a_twentieth_of_the_strands_keeps_light(void** state)
+{
+    static const double limit[2] = {0.04, 0.05}; // Maximum relative differences.
+    struct hair_test_scene f = start(state, HAIR_LOOK_NATURAL, DENSE);
+    hair_lod lod = hair_lod_default();
+    hair_look look = hair_look_default();
+    GLuint map;
+    hair_test_ok(f.test, hair_get_look(f.hair, &look));
+    look.strand.radius = 8e-5f;
+    look.strand.taper = hair_curve_line(1, 1);
+    for (int c = 0; c < 3; ++c) look.color.root[c] = look.color.tip[c] = 0.02f;
+    hair_test_ok(f.test, hair_set_look(f.hair, &look));
+    glCreateTextures(GL_TEXTURE_2D, 1, &map);
+    glTextureStorage2D(map, 1, GL_DEPTH_COMPONENT32F, MAP, MAP);
+    lod.strand_fraction = 0.05f, lod.per_patch = false;
+    for (int k = 0; k < 2; ++k) {
+        double light[2];
+        for (int n = 0; n < 2; ++n) {
+            const hair_lod* level = n ? &lod : NULL;
+            hair_test_ok(f.test, hair_step(f.hair, 1e-4f)); // Discards the grid of the view before.
+            hair_light sun = shine(&f, 0, level, map);
+            for (int c = 0; c < 3 && k; ++c) sun.color[c] = 0;
+            light[n] = brightness(&f, HAIR_SELF_SHADOW_STRANDS, &sun, level, k ? 1 : 0);
+        }
+        print_message("    %s: %+.1f %%\n", k ? "sky" : "sun", 100 * (light[1] / light[0] - 1));
+        assert_true(fabs(light[1] / light[0] - 1) < limit[k]);
+    }
+    glDeleteTextures(1, &map);
+    hair_test_scene_free(&f);
+}
+
 static double half_of(uint32_t h)
 {
     uint32_t exponent = h >> 10 & 31, fraction = h & 1023;
@@ -211,6 +245,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         HAIR_TEST(light_is_near_that_of_counted_strands),
         HAIR_TEST(level_of_detail_keeps_light),
+        HAIR_TEST(a_twentieth_of_the_strands_keeps_light),
         HAIR_TEST(order_is_near_that_of_vertices),
     };
     if (hair_test_skips()) return 0;
