@@ -15,37 +15,13 @@
 #define FAR 16 // end of the walk, as a multiple of the start distance
 #define AWAY 8 // distance of the case `far`, as a multiple of the scene's distance
 
-static const char* const columns[] = {"case",
-                                      "method",
-                                      "scene",
-                                      "strands",
-                                      "size",
-                                      "samples",
-                                      "away",
-                                      "frames",
-                                      "coverage",
-                                      "flip",
-                                      "flip_without",
-                                      "flip_more",
-                                      "segments_from",
-                                      "segments",
-                                      "fewer_times",
-                                      "between",
-                                      "between_truth",
-                                      "between_halves",
-                                      "calm",
-                                      "calm_most",
-                                      "ms_near",
-                                      "ms",
-                                      "rate",
-                                      "light",
-                                      "red",
-                                      "green",
-                                      "blue",
-                                      "color_error",
-                                      "limit",
-                                      "pass",
-                                      NULL};
+// clang-format off
+static const char* const columns[] = {
+    "case", "method", "scene", "strands", "size", "samples", "away", "frames", "coverage", "flip",
+    "flip_without", "flip_more", "segments_from", "segments", "fewer_times", "between", "between_truth",
+    "between_halves", "calm", "calm_most", "ms_near", "ms", "rate", "light", "red", "green", "blue",
+    "color_error", "limit", "pass", NULL};
+// clang-format on
 
 static const char* const scenes[] = {"still", "short", "afro"};
 static const float fractions[] = {0.5f, 0.2f, 0.1f, 0.05f};
