@@ -135,6 +135,13 @@ static void curls_on_a_ball_are_drawn_equally_by_all_paths(void** state)
     hair_test_scene_free(&f);
 }
 
+static bool has_depth(const struct picture* picture)
+{
+    int count = 0;
+    for (int i = 0; i < PIXELS; ++i) count += picture->pixels[4 * i] > 0;
+    return count > PIXELS / 20;
+}
+
 // Compare paths with levels of detail. Their vertices are written for each view, into the buffers
 // that draws without levels use.
 static void levels_of_detail_are_drawn_equally_by_all_paths(void** state)
@@ -154,7 +161,7 @@ static void levels_of_detail_are_drawn_equally_by_all_paths(void** state)
             view.lod = &lods[i % 3];
             draw(&f, &view, &picture[path]);
             if (shown) assert_non_null(strstr(drawn_by(&f), name_of(view.render_path, &view)));
-            assert_true(shown || picture[path].pixels[4 * (PIXELS / 2 + SIDE / 2)] > 0);
+            assert_true(shown || has_depth(&picture[path]));
             assert_true(
                 hair_image_error(picture[0].shown, picture[path].shown, picture[0].mask, SIDE, SIDE, &error));
             print_message("    %s, %s, level %d%s: FLIP %.5f\n", names[path],
