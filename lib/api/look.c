@@ -190,6 +190,8 @@ hair_result hair_look_apply_preset(hair_look* look, hair_look_preset kind)
     return HAIR_COPY_OUT(&silent, hair_look, &own, look);
 }
 
+// Natural blond, red and white hair is darker and less saturated than dyed hair. look_test.c has
+// their bounds in CIELAB.
 static const struct {
     const char* name;
     float root[3], tip[3], spread;
@@ -197,11 +199,11 @@ static const struct {
     [HAIR_COLOR_BROWN] = {"brown", {0.13f, 0.055f, 0.024f}, {0.26f, 0.13f, 0.06f}, 0.4f},
     [HAIR_COLOR_DARK_BROWN] = {"dark_brown", {0.05f, 0.024f, 0.014f}, {0.09f, 0.046f, 0.027f}, 0.35f},
     [HAIR_COLOR_BLACK] = {"black", {0.011f, 0.01f, 0.01f}, {0.018f, 0.0163f, 0.017f}, 0.3f},
-    [HAIR_COLOR_BLOND] = {"blond", {0.54f, 0.37f, 0.18f}, {0.72f, 0.55f, 0.31f}, 0.3f},
-    [HAIR_COLOR_RED] = {"red", {0.2f, 0.045f, 0.012f}, {0.34f, 0.095f, 0.028f}, 0.35f},
+    [HAIR_COLOR_BLOND] = {"blond", {0.308f, 0.192f, 0.104f}, {0.449f, 0.307f, 0.175f}, 0.3f},
+    [HAIR_COLOR_RED] = {"red", {0.149f, 0.053f, 0.023f}, {0.282f, 0.097f, 0.033f}, 0.35f},
     [HAIR_COLOR_AUBURN] = {"auburn", {0.1f, 0.03f, 0.015f}, {0.17f, 0.056f, 0.029f}, 0.35f},
     [HAIR_COLOR_GRAY] = {"gray", {0.25f, 0.25f, 0.255f}, {0.38f, 0.38f, 0.385f}, 0.6f},
-    [HAIR_COLOR_WHITE] = {"white", {0.86f, 0.85f, 0.815f}, {0.9f, 0.89f, 0.86f}, 0.15f},
+    [HAIR_COLOR_WHITE] = {"white", {0.611f, 0.562f, 0.488f}, {0.666f, 0.617f, 0.537f}, 0.15f},
     [HAIR_COLOR_BLUE] = {"blue", {0.016f, 0.045f, 0.17f}, {0.03f, 0.11f, 0.34f}, 0.3f},
 };
 

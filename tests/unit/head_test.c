@@ -80,7 +80,7 @@ static void the_mesh_is_sound_and_faces_outwards(void** state)
     struct head_mesh mesh;
     assert_int_equal(head_mesh_create(&mesh), 0);
     assert_true(mesh.triangle_count > 100000 && mesh.triangle_count < 300000);
-    uint32_t skin = 0, wet = 0, cloth = 0;
+    uint32_t skin = 0, wet = 0, cloth = 0, hairs = 0;
     for (uint32_t i = 0; i < mesh.vertex_count; ++i) {
         const float *p = mesh.positions + 3 * i, *color = mesh.colors + 3 * i,
                     *surface = mesh.surface + 3 * i;
@@ -89,14 +89,18 @@ static void the_mesh_is_sound_and_faces_outwards(void** state)
         assert_true(fabsf(head_dot(n, n) - 1) < 1e-3f);
         for (int k = 0; k < 3; ++k) assert_true(color[k] > 0 && color[k] < 1 && surface[k] >= 0);
         assert_true(surface[2] <= 1);
-        skin += surface[0] > 0;
+        skin += surface[0] >= 1;
+        hairs += surface[0] == HEAD_KIND_HAIR;
+        // Hair covers skin above the hairline and at the brows.
+        if (surface[0] > 1)
+            assert_true(head_above_hairline(point_of(p)) > -0.002f || head_brow(point_of(p)) > 0);
         // Cloth is blue, and skin never is. Eyes are wet.
         cloth += surface[0] == 0 && color[0] < color[2];
         wet += surface[1] > 2;
         if (surface[1] > 2) assert_true(square_from_eye(p) < 0.017f * 0.017f);
         assert_false(surface[0] > 0 && color[0] < color[2]);
     }
-    assert_true(skin > 50000 && cloth > 5000 && wet > 1000);
+    assert_true(skin > 50000 && cloth > 5000 && wet > 1000 && hairs > 10000);
     // The volume under the surface is about that of a bust of 25 kg, and positive only if triangles
     // face outwards. The surface is open below.
     double volume = 0;

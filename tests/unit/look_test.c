@@ -45,6 +45,44 @@ static void shape_and_color_presets_are_independent(void** state)
     }
 }
 
+// Compute the lightness, chroma and hue in degrees of a linear colour in CIELAB, under D65.
+static void find_lab(const float color[3], double* lightness, double* chroma, double* hue)
+{
+    // Rows of the matrix from sRGB to XYZ are divided by the white point.
+    static const double to_xyz[3][3] = {
+        {0.4339, 0.3762, 0.1899}, {0.2126, 0.7152, 0.0722}, {0.0177, 0.1095, 0.8728}};
+    double f[3];
+    for (int i = 0; i < 3; ++i) {
+        double sum = 0;
+        for (int k = 0; k < 3; ++k) sum += to_xyz[i][k] * (double)color[k];
+        f[i] = cbrt(sum);
+    }
+    double a = 500 * (f[0] - f[1]), b = 200 * (f[1] - f[2]);
+    *lightness = 116 * f[1] - 16, *chroma = hypot(a, b), *hue = atan2(b, a) * (180 / 3.14159265);
+}
+
+// Check that light hair has no tint of khaki, and is not as saturated as dyed hair.
+static void light_colors_are_those_of_natural_hair(void** state)
+{
+    (void)state;
+    static const struct {
+        hair_color color;
+        double min_lightness, max_lightness, max_chroma, min_hue, max_hue;
+    } rows[] = {{HAIR_COLOR_BLOND, 50, 66, 24, 65, 77},
+                {HAIR_COLOR_RED, 30, 45, 38, 50, 60},
+                {HAIR_COLOR_WHITE, 75, 85, 10, 70, 100}};
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; ++i) {
+        hair_look look = hair_look_default();
+        assert_int_equal(hair_look_color(&look, rows[i].color), HAIR_OK);
+        for (int end = 0; end < 2; ++end) {
+            double lightness, chroma, hue;
+            find_lab(end ? look.color.tip : look.color.root, &lightness, &chroma, &hue);
+            assert_true(lightness >= rows[i].min_lightness && lightness <= rows[i].max_lightness);
+            assert_true(chroma <= rows[i].max_chroma && hue >= rows[i].min_hue && hue <= rows[i].max_hue);
+        }
+    }
+}
+
 static void presets_have_distinct_names(void** state)
 {
     (void)state;
@@ -198,6 +236,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(first_presets_are_the_defaults),
         cmocka_unit_test(shape_and_color_presets_are_independent),
+        cmocka_unit_test(light_colors_are_those_of_natural_hair),
         cmocka_unit_test(presets_have_distinct_names),
         cmocka_unit_test(fit_curl_recognizes_a_helix),
         cmocka_unit_test(fit_curl_refuses_invalid_examples),

@@ -8,7 +8,8 @@ struct head_mesh {
     float* positions; // xyz per vertex, m, in the space of the built-in haircuts
     float* normals; // xyz per vertex, unit, outwards
     float* colors; // linear reflectance rgb per vertex
-    // Per vertex: 1 for skin, the strength of the highlight, the visible fraction of surroundings.
+    // Kind, strength of the highlight and visible fraction of surroundings, per vertex. The kind of
+    // skin is 1 plus the fraction that hair covers.
     float* surface;
     uint32_t* triangles; // three indices each, counter-clockwise from outside
     uint32_t vertex_count;
@@ -20,6 +21,7 @@ struct head_mesh {
 int head_mesh_create(struct head_mesh* out);
 void head_mesh_free(struct head_mesh* mesh);
 
+#define HEAD_KIND_HAIR 0.5f // Kind of brows, lashes and fine hairs, which have the colour of hair.
 #define HEAD_COLLIDERS 16
 #define HEAD_NECK 10 // index of the collider of the neck
 

@@ -79,7 +79,8 @@ void head_put_eyes(struct head_builder* builder)
 
 // Hairs -------------------------------------------------------------------------------------------
 
-static const struct head_paint dark_hair = {{0.022f, 0.014f, 0.010f}, 0, 0.35f, 0.8f};
+// The shader replaces the colour by one that follows the hair of the head.
+static const struct head_paint small_hair = {{0.022f, 0.014f, 0.010f}, HEAD_KIND_HAIR, 0.35f, 0.8f};
 
 // Add a thin cone from a root, which bends from one direction to another. It has `joints` cross
 // sections.
@@ -96,7 +97,7 @@ static void put_hair(struct head_builder* builder, point root, point from, point
         for (uint32_t k = 0; k < 3; ++k) {
             float turn = 2 * PI * (float)k / 3;
             point n = head_add(head_add((point){0, 0, 0}, across, cosf(turn)), over, sinf(turn));
-            head_put_vertex(builder, head_add(p, n, radius * (1 - 0.85f * t)), n, &dark_hair);
+            head_put_vertex(builder, head_add(p, n, radius * (1 - 0.85f * t)), n, &small_hair);
         }
         p = head_add(p, way, length / (float)(joints - 1));
     }

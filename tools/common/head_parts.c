@@ -74,7 +74,7 @@ uint32_t head_put_vertex(struct head_builder* builder, point p, point normal, co
     struct head_mesh* mesh = &builder->mesh;
     if (builder->failed || !reserve_vertex(builder)) return 0;
     size_t at = 3 * (size_t)mesh->vertex_count;
-    const float surface[3] = {paint->skin, paint->gloss, paint->open};
+    const float surface[3] = {paint->kind, paint->gloss, paint->open};
     memcpy(mesh->positions + at, &p, sizeof p);
     memcpy(mesh->normals + at, &normal, sizeof normal);
     memcpy(mesh->colors + at, paint->color, sizeof paint->color);
@@ -148,7 +148,7 @@ static float spot(point p, point centre, float radius)
 struct head_paint head_paint_skin(point p, float lip, float open)
 {
     static const float skin[3] = {0.50f, 0.315f, 0.225f}, blood[3] = {0.47f, 0.215f, 0.165f};
-    static const float lips[3] = {0.37f, 0.165f, 0.145f}, hair[3] = {0.11f, 0.07f, 0.055f};
+    static const float lips[3] = {0.37f, 0.165f, 0.145f};
     // Blood is near the surface of cheeks, nose and ears.
     float red = 0.55f * spot(p, (point){0.038f, 1.578f, 0.075f}, 0.034f) +
                 0.60f * spot(p, (point){0, 1.578f, 0.117f}, 0.020f) +
@@ -157,12 +157,12 @@ struct head_paint head_paint_skin(point p, float lip, float open)
     // Hair darkens the skin that it grows from, as on a shaved head.
     float dark = 0.80f * head_smooth(-0.001f, 0.015f, head_above_hairline(p)) *
                  head_smooth(0.004f, 0.001f, above_skull(p));
-    struct head_paint paint = {.skin = 1, .open = open};
     dark = fmaxf(dark, 0.45f * head_brow(p));
+    struct head_paint paint = {.kind = 1 + dark, .open = open};
     lip = head_smooth(0.25f, 0.85f, lip);
     for (int i = 0; i < 3; ++i) {
         float c = head_mix(skin[i], blood[i], fminf(red, 1));
-        paint.color[i] = head_mix(head_mix(c, lips[i], lip), hair[i], dark);
+        paint.color[i] = head_mix(c, lips[i], lip);
     }
     paint.gloss = head_mix(head_mix(1, 1.7f, lip), 0.4f, dark);
     return paint;

@@ -12,7 +12,9 @@ struct head_point {
 // Look of a vertex.
 struct head_paint {
     float color[3]; // linear reflectance
-    float skin; // 1 for skin, whose light spreads below the surface
+    // 1 for skin, whose light spreads below the surface, plus the fraction that hair covers.
+    // HEAD_KIND_HAIR for a hair, 0 for anything else.
+    float kind;
     float gloss; // strength of the highlight
     float open; // visible fraction of the surroundings
 };

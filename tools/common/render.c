@@ -248,6 +248,7 @@ static void draw_skin(const struct hair_render* render, const struct frame* fram
     glProgramUniform3fv(program, HAIR_AT_EYE, 1, frame->scene->eye);
     glProgramUniform1i(program, HAIR_AT_TAPS, render->desc.supersample > 2 ? TAPS / 2 : TAPS);
     glProgramUniform3fv(program, HAIR_AT_AMBIENT, 1, view->ambient);
+    glProgramUniform3fv(program, HAIR_AT_HAIR, 1, frame->scene->settings.look.color.root);
     hair_frame_lights_set(program, &frame->lights, render->map, render->shadow_sampler);
     draw_mesh(render, program, frame, &tile->camera);
     hair_frame_lights_unset(&frame->lights);

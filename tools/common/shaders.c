@@ -71,6 +71,7 @@ const char hair_nothing_frag[] = HEAD "void main() {}\n";
 const char hair_scalp_motion_frag[] = HEAD
     AT(HAIR_AT_EYE) "vec3 eye;\n"
     AT(HAIR_AT_TAPS) "int taps;\n"
+    AT(HAIR_AT_HAIR) "vec3 hair;\n" // reflectance of the hair at its roots
     AT(HAIR_AT_LIGHTS) "int lights;\n"
     AT(HAIR_AT_LIGHT_TO) "vec4 light_to[16];\n"
     AT(HAIR_AT_LIGHT) "vec4 light_color[16];\n"
@@ -85,7 +86,7 @@ const char hair_scalp_motion_frag[] = HEAD
     "layout(location = 0) in vec3 position;\n"
     "layout(location = 1) in vec3 normal;\n"
     "layout(location = 2) in vec3 albedo;\n"
-    "layout(location = 3) in vec3 surface;\n" // skin, gloss, visible fraction of the surroundings
+    "layout(location = 3) in vec3 surface;\n" // as in struct head_mesh
     "layout(location = 4) in vec3 at_rest;\n"
     "layout(location = 0) out vec4 color;\n"
     "float random(vec3 p)\n"
@@ -110,7 +111,7 @@ const char hair_scalp_motion_frag[] = HEAD
     "vec3 lit(int map, vec3 n)\n"
     "{\n"
     "    if (map < 0) return vec3(1.0);\n"
-    "    float off   = 3.0 * texel[map] + 0.0012 * surface.x;\n"
+    "    float off   = 3.0 * texel[map] + 0.0012 * clamp(surface.x, 0.0, 1.0);\n"
     "    vec4  clip  = shadow[map] * vec4(position + off * n, 1.0);\n"
     "    vec3  at    = clip.xyz / max(clip.w, 1e-6);\n"
     // The map covers the reach of the hair. Nothing is known to shadow a place beyond.
@@ -120,7 +121,7 @@ const char hair_scalp_motion_frag[] = HEAD
     "    vec2  way   = vec2(cos(6.2831853 * turn), sin(6.2831853 * turn));\n"
     "    vec3  sum   = vec3(0.0), total = vec3(0.0);\n"
     // Share of the square of the disc's radius within which light of a colour leaves the skin.
-    "    vec3  share = mix(vec3(0.6), vec3(0.5, 0.26, 0.18), surface.x);\n"
+    "    vec3  share = mix(vec3(0.6), vec3(0.5, 0.26, 0.18), clamp(surface.x, 0.0, 1.0));\n"
     "    for (int i = 0; i < taps; ++i) {\n"
     "        float part   = (float(i) + 0.5) / float(taps);\n"
     "        vec2  tap    = at.xy + 8.0 * sqrt(part) * size * way;\n"
@@ -137,14 +138,29 @@ const char hair_scalp_motion_frag[] = HEAD
     "{\n"
     "    return 0.125 * (power + 2.0) * pow(facing, power);\n"
     "}\n"
+// Return the colour of brows. They have more pigment than the hair of the head. Those of dyed hair
+// are brown.
+    "vec3 brow()\n"
+    "{\n"
+    "    vec3 deep = 0.5 * pow(hair, vec3(1.6));\n"
+    "    deep      = mix(deep, vec3(dot(deep, vec3(0.2126, 0.7152, 0.0722))), 0.4);\n"
+    "    return hair.b > 1.1 * hair.r ? vec3(0.022, 0.014, 0.010) : max(deep, vec3(0.003));\n"
+    "}\n"
+// Return the colour of skin from which hair grows. Hair never brightens skin.
+    "vec3 stubble(vec3 skin)\n"
+    "{\n"
+    "    return min(skin, mix(hair, vec3(dot(hair, vec3(0.2126, 0.7152, 0.0722))), 0.4));\n"
+    "}\n"
     "void main()\n"
     "{\n"
     "    const float tone = 0.56;\n"
     "    vec3  n       = normalize(normal);\n"
     "    vec3  to_eye  = normalize(eye - position);\n"
-    "    float skin    = clamp(surface.x, 0.0, 1.0), gloss = surface.y, open = clamp(surface.z, 0.0, 1.0);\n"
+    "    bool  small   = surface.x > 0.25 && surface.x < 0.75;\n"
+    "    float skin    = small ? 0.0 : clamp(surface.x, 0.0, 1.0), grown = max(surface.x - 1.0, 0.0);\n"
+    "    float gloss = surface.y, open = clamp(surface.z, 0.0, 1.0);\n"
     "    bool  wet     = gloss > 2.0;\n"
-    "    vec3  paint   = albedo;\n"
+    "    vec3  paint   = small ? brow() : mix(albedo, stubble(albedo), grown);\n"
     "    vec3  bumpy   = n;\n"
     "    if (skin > 0.5) {\n"
     "        float blotch = noise(190.0 * at_rest) - 0.5, grain = noise(1100.0 * at_rest) - 0.5;\n"
@@ -185,7 +201,9 @@ const char hair_scalp_motion_frag[] = HEAD
     "}\n";
 
 // Tone mapping. The curve is linear up to 0.5, followed by a shoulder that approaches white
-// asymptotically. The sRGB curve (IEC 61966-2-1) follows. Noise of half a step hides bands in
+// asymptotically. The greatest and the least channel follow the curve, and the middle one keeps its
+// place between them. A curve for each channel would turn bright skin and hair yellow. The sRGB
+// curve (IEC 61966-2-1) follows. Noise of half a step hides bands in
 // gradients.
 const char hair_tone_frag[] = HEAD
     AT(HAIR_AT_SUPERSAMPLE) "int supersample;\n"
@@ -194,6 +212,7 @@ const char hair_tone_frag[] = HEAD
     "layout(binding = 0) uniform sampler2D drawn;\n"
     "layout(location = 0) out vec4 encoded;\n"
     "layout(location = 1) out vec4 linear;\n"
+    "float curve(float x) { return x > 0.5 ? 1.0 - 0.5 * exp(1.0 - 2.0 * x) : x; }\n"
     "void main()\n"
     "{\n"
     "    ivec2 at  = ivec2(gl_FragCoord.xy);\n"
@@ -203,7 +222,8 @@ const char hair_tone_frag[] = HEAD
     "        for (int x = 0; x < supersample; ++x) sum += texelFetch(drawn, up + ivec2(x, y), 0).rgb;\n"
     "    linear = vec4(sum / float(supersample * supersample), 1.0);\n"
     "    vec3 c = exposure * linear.rgb;\n"
-    "    c      = mix(c, 1.0 - 0.5 * exp(1.0 - 2.0 * c), greaterThan(c, vec3(0.5)));\n"
+    "    float high = max(max(c.r, c.g), c.b), low = min(min(c.r, c.g), c.b);\n"
+    "    c      = mix(vec3(curve(low)), vec3(curve(high)), (c - low) / max(high - low, 1e-6));\n"
     "    vec3 s = 1.055 * pow(max(c, vec3(1e-9)), vec3(1.0 / 2.4)) - 0.055;\n"
     "    c      = mix(12.92 * c, s, greaterThan(c, vec3(0.0031308)));\n"
     "    uint h = uint(at.x) * 1664525u + uint(at.y) * 22695477u;\n"

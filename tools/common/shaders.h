@@ -19,6 +19,7 @@
 #define HAIR_AT_HEIGHT 16
 // Taps of a shadow map. A constant would be unrolled, which is slower on llvmpipe.
 #define HAIR_AT_TAPS 17
+#define HAIR_AT_HAIR 18
 // Arrays of 16 lights, see struct hair_lit of scene_lights.h.
 #define HAIR_AT_LIGHT_TO 32
 #define HAIR_AT_LIGHT 48
