@@ -35,7 +35,8 @@ static hair_result grow_guides(const hair_host* host, const hair_style_desc* des
 
 // Let the density fall off towards the hairline, which no head has as a sharp edge. The hairline is
 // uneven.
-static hair_result thin_hairline(const hair_host* host, uint32_t seed, struct hair_asset* asset)
+static hair_result thin_hairline(const hair_host* host, struct hair_parting parting, uint32_t seed,
+                                 struct hair_asset* asset)
 {
     asset->scalp_density = hair_alloc(host, asset->scalp_vertex_count, sizeof(float));
     if (!asset->scalp_density) return hair_fail_memory(host, "the density of a haircut");
@@ -43,6 +44,9 @@ static hair_result thin_hairline(const hair_host* host, uint32_t seed, struct ha
         hair_vec3 p = hair_load3(asset->scalp_positions + 3 * (size_t)i), unit = hair_skull_unit(p);
         float above = p.y - hair_scalp_hairline(atan2f(unit.x, unit.z));
         float edge = HAIRLINE_DENSITY * (1 + 0.6f * hair_noise(p, 0.009f, hair_hash(seed + 71u)));
+        // Hair runs away from a parting on both sides, and would leave a triangle of skin there.
+        float beside = parting.exists && p.z > 0 ? fabsf(p.x - hair_parting_x(parting, p.z)) : 1;
+        edge = hair_mix(edge, 1, hair_smooth(0.020f, 0.006f, beside));
         asset->scalp_density[i] = hair_mix(edge, 1, hair_smooth(0.002f, HAIRLINE_WIDTH, above));
     }
     return HAIR_OK;
@@ -59,7 +63,7 @@ static hair_result build_style(const hair_host* host, const hair_style_desc* des
     asset->scalp_triangles = scalp.triangles;
     asset->scalp_vertex_count = scalp.vertex_count;
     asset->scalp_triangle_count = scalp.triangle_count;
-    HAIR_TRY(thin_hairline(host, desc->seed, asset));
+    HAIR_TRY(thin_hairline(host, hair_style_parting(desc->style), desc->seed, asset));
     return grow_guides(host, desc, asset);
 }
 

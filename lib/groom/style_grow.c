@@ -223,8 +223,8 @@ static void grow_long(uint32_t guide, hair_vec3 root, float scale, uint32_t seed
     run_cut(&walk, root, scale, 0.03f, path);
     struct hair_curl wave = {.radius = 0.011f,
                              .pitch = 0.105f,
-                             .start = 0.07f * scale,
-                             .full = 0.38f * scale,
+                             .start = 0.05f * scale,
+                             .full = 0.28f * scale,
                              .phase = 1.5f * PI * hair_noise(root, 0.06f, seed + 2),
                              .flat = 0.5f,
                              .variation = 0.3f,
@@ -232,23 +232,33 @@ static void grow_long(uint32_t guide, hair_vec3 root, float scale, uint32_t seed
     hair_style_path_add_curl(path, &wave);
 }
 
-static void grow_bob(hair_vec3 root, float scale, uint32_t seed, struct hair_style_path* path)
+static void grow_bob(uint32_t guide, hair_vec3 root, float scale, uint32_t seed, struct hair_style_path* path)
 {
     float high = layer(root);
     float cut = hair_mix(1.528f, 1.500f, hair_smooth(-0.07f, 0.04f, root.z));
     struct walk walk = {
         .comb = comb_from_parting(hair_style_parting(HAIR_STYLE_BOB), root, 0.40f, 1.0f),
         .rise = 0.16f,
-        .clearance = hair_mix(0.005f, 0.017f, high) + uneven(root, 0.002f, seed),
+        .clearance = hair_mix(0.005f, 0.017f, high) + uneven(root, 0.004f, seed),
         .lift = 0.06f,
         .gravity = 40,
         .hold = 0.04f,
         .inward = 22,
         .inward_below = cut + 0.045f,
-        .floor = cut + 0.006f * hair_noise(root, 0.012f, seed + 1),
+        .floor = cut + 0.010f * hair_noise(root, 0.012f, seed + 1),
         .face = 0.008f,
     };
     run_cut(&walk, root, scale, 0.03f, path);
+    // Without a slight wave, hair falls beside the temple like a curtain.
+    struct hair_curl wave = {.radius = 0.006f,
+                             .pitch = 0.085f,
+                             .start = 0.025f * scale,
+                             .full = 0.14f * scale,
+                             .phase = 1.5f * PI * hair_noise(root, 0.04f, seed + 2),
+                             .flat = 0.5f,
+                             .variation = 0.4f,
+                             .seed = hair_hash(guide ^ seed)};
+    hair_style_path_add_curl(path, &wave);
 }
 
 static void grow_short(hair_vec3 root, float scale, uint32_t seed, struct hair_style_path* path)
@@ -284,24 +294,30 @@ static void make_lock(uint32_t guide, uint32_t seed, float spread, struct hair_c
 static void grow_curly(uint32_t guide, hair_vec3 root, float scale, uint32_t seed,
                        struct hair_style_path* path)
 {
-    float high = layer(root);
+    float high = layer(root), brow = hair_smooth(0.030f, 0.065f, root.z);
     struct walk walk = {
         .comb = comb_from_parting(hair_style_parting(HAIR_STYLE_CURLY), root, 0.2f, 1.0f),
-        .rise = 0.18f,
+        // Volume at the root, but not before the forehead.
+        .rise = hair_mix(0.45f, 0.18f, brow),
         .clearance = hair_mix(0.014f, 0.030f, high) + uneven(root, 0.007f, seed),
-        .lift = 0.07f,
+        .lift = hair_mix(0.03f, 0.07f, brow),
         .gravity = 40,
         .hold = 0.04f,
         .split = 15,
         .ridge = -0.034f,
         .floor = 1.385f + LAYERS * high + 0.025f * hair_noise(root, 0.012f, seed + 1),
-        .face = 0.018f,
+        .face = 0.024f,
     };
     run_cut(&walk, root, scale, 0.04f, path);
     // More variation makes turns tighter than 64 vertices resolve.
-    struct hair_curl curl = {
-        .radius = 0.0100f, .pitch = 0.028f, .start = 0.008f, .full = 0.07f, .variation = 0.2f};
-    make_lock(guide, seed + 2, 0.3f, &curl);
+    struct hair_curl curl = {.radius = 0.0095f,
+                             .pitch = 0.028f,
+                             .start = 0.002f,
+                             .full = 0.05f,
+                             .variation = 0.2f,
+                             .swell = 0.25f,
+                             .drift = 0.010f};
+    make_lock(guide, seed + 2, 0.33f, &curl);
     hair_style_path_add_curl(path, &curl);
 }
 
@@ -324,7 +340,7 @@ static void grow_afro(uint32_t guide, hair_vec3 root, float scale, uint32_t seed
         hair_style_path_add(path, hair_lerp(hair_lerp(root, control, t), hair_lerp(control, tip, t), t));
     }
     struct hair_curl curl = {
-        .radius = 0.0042f, .pitch = 0.012f, .start = 0.002f, .full = 0.025f, .variation = 0.25f};
+        .radius = 0.0042f, .pitch = 0.012f, .start = 0.001f, .full = 0.012f, .variation = 0.25f};
     make_lock(guide, seed + 1, 0.2f, &curl);
     hair_style_path_add_curl(path, &curl);
 }
@@ -394,7 +410,7 @@ void hair_style_grow(hair_style style, uint32_t guide, hair_vec3 root, float sca
     seed = hair_hash(seed + 101u);
     switch (style) {
     case HAIR_STYLE_LONG: grow_long(guide, root, scale, seed, path); break;
-    case HAIR_STYLE_BOB: grow_bob(root, scale, seed, path); break;
+    case HAIR_STYLE_BOB: grow_bob(guide, root, scale, seed, path); break;
     case HAIR_STYLE_SHORT: grow_short(root, scale, seed, path); break;
     case HAIR_STYLE_PONYTAIL: hair_style_grow_ponytail(root, scale, seed, path); break;
     case HAIR_STYLE_CURLY: grow_curly(guide, root, scale, seed, path); break;

@@ -5,6 +5,7 @@
 #define PI 3.14159265f
 // Number of turns over which a curl changes.
 #define VARIATION_TURNS 1.3f
+#define DRIFT_TURNS 2.2f // Number of turns over which the axis of a curl drifts.
 
 static float lattice(int x, int y, int z, uint32_t seed)
 {
@@ -56,6 +57,12 @@ static float vary(const struct hair_curl* curl, float s, uint32_t which)
     return curl->variation * hair_noise(hair_v3(s, 0, 0), VARIATION_TURNS * curl->pitch, curl->seed + which);
 }
 
+// Return a random number in [-1, 1] that changes slowly along the curl.
+static float drift(const struct hair_curl* curl, float s, uint32_t which)
+{
+    return hair_noise(hair_v3(s, 0, 0), DRIFT_TURNS * curl->pitch, curl->seed + which);
+}
+
 void hair_style_path_add_curl(struct hair_style_path* path, const struct hair_curl* curl)
 {
     HAIR_ASSERT(path->count >= 2 && curl->pitch > 0);
@@ -75,9 +82,12 @@ void hair_style_path_add_curl(struct hair_style_path* path, const struct hair_cu
         tangent = next, last = p;
         s += step;
         angle += 2 * PI * step / (curl->pitch * (1 + vary(curl, s, 0)));
-        float radius = curl->radius * (1 + vary(curl, s, 1)) * hair_smooth(curl->start, curl->full, s);
-        hair_vec3 along = hair_scale(hair_cross(tangent, across), curl->flat * radius * sinf(angle));
-        hair_vec3 q = hair_add(p, hair_add(hair_scale(across, radius * cosf(angle)), along));
+        float grown = hair_smooth(curl->start, curl->full, s), swell = curl->swell * drift(curl, s, 2);
+        float radius = curl->radius * (1 + vary(curl, s, 1) + swell) * grown;
+        float x = radius * cosf(angle) + grown * curl->drift * drift(curl, s, 3);
+        float z = curl->flat * radius * sinf(angle) + grown * curl->drift * drift(curl, s, 4);
+        hair_vec3 along = hair_scale(hair_cross(tangent, across), z);
+        hair_vec3 q = hair_add(p, hair_add(hair_scale(across, x), along));
         float inside = hair_body_distance(q);
         if (inside < 0.002f) q = hair_add(q, hair_scale(hair_body_normal(q), fminf(0.002f - inside, radius)));
         hair_style_path_add(path, q);

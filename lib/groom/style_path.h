@@ -49,6 +49,8 @@ struct hair_curl {
     float phase; // radians
     float flat; // 1 gives a helix to the right, -1 one to the left, 0 a plane wave.
     float variation; // relative variation of the radius and of the pitch along the curl, [0, 0.9]
+    float swell; // further relative variation of the radius, [0, 0.5]
+    float drift; // distance by which the axis leaves the path, m
     uint32_t seed; // of this variation
 };
 

@@ -183,6 +183,27 @@ static void density_falls_off_over_a_centimetre(void** state)
     for (int band = 7; band < BANDS; ++band) assert_true(drawn[band] > 0.95);
 }
 
+// Check that hair beside the parting hides the skin at the hairline. Elsewhere hair is thin there.
+static void hair_beside_a_parting_is_dense_to_the_hairline(void** state)
+{
+    (void)state;
+    const struct hair_parting parting = hair_style_parting(HAIR_STYLE_BOB);
+    struct hair_test_cut cut = hair_test_cut_with(&test, HAIR_STYLE_BOB, 1000, 1, 1);
+    struct statistics beside = {0}, apart = {0};
+    for (uint32_t i = 0; i < cut.info.scalp_vertex_count; ++i) {
+        hair_vec3 p = hair_load3(cut.info.scalp_positions + 3 * (size_t)i), unit = hair_skull_unit(p);
+        float azimuth = atan2f(unit.x, unit.z), away = fabsf(p.x - hair_parting_x(parting, p.z));
+        if (p.y - hair_scalp_hairline(azimuth) > 0.003f || p.z < 0.05f) continue;
+        if (away < 0.008f) add(&beside, (double)cut.info.scalp_density[i]);
+        if (away > 0.025f) add(&apart, (double)cut.info.scalp_density[i]);
+    }
+    print_message("    density at the hairline %.2f beside the parting, %.2f elsewhere\n", beside.mean,
+                  apart.mean);
+    assert_true(beside.count >= 2 && apart.count >= 8);
+    assert_true(beside.mean > 0.85 && apart.mean < 0.5);
+    hair_asset_destroy(cut.asset);
+}
+
 // Tips and crown ----------------------------------------------------------------------------------
 
 static void tips_of_long_hair_are_layered(void** state)
@@ -236,6 +257,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         TEST(locks_of_curly_hair_differ),
         TEST(density_falls_off_over_a_centimetre),
+        TEST(hair_beside_a_parting_is_dense_to_the_hairline),
         TEST(tips_of_long_hair_are_layered),
         TEST(the_crown_has_a_whorl),
     };

@@ -24,6 +24,9 @@
     "'strays.frizz_wavelength': 0.035"
 #define FLYAWAY "'strays.fraction': 0.03, 'strays.distance': '0,0.02,0.03,0.035,0.035,0.035,0.035,0.035'"
 #define STUDIO LIGHTS "'settings': {" SETTINGS ", 'strand.length_variation': 0.45, " FLYAWAY "}"
+// Coils need more locks, which are spikes otherwise.
+#define LOCKED                                                                                               \
+    LIGHTS "'settings': {" SETTINGS ", 'guides': 300, 'strand.length_variation': 0.45, " FLYAWAY "}"
 // Hair that is cut to one length needs more locks, whose ends are close together.
 #define BLUNT LIGHTS "'settings': {" SETTINGS ", 'guides': 400, 'strand.length_variation': 0.15, " FLYAWAY "}"
 // Short strands lie less in line with each other.
@@ -38,7 +41,7 @@ const struct hair_builtin hair_builtin_scenes[] = {
     {"ponytail", "{'style': 'ponytail', 'motion': 'demo', 'settle': 0.5, 'frames': 120, 'picture': 45," BEHIND
                  ", " STUDIO "}"},
     {"afro", "{'style': 'afro', 'motion': 'demo', 'settle': 0.5, 'frames': 120, 'picture': 45,"
-             " 'camera': {'eye': [0.53, 1.62, 1.06], 'target': [0.0, 1.58, 0.0], 'fov': 24}, " STUDIO "}"},
+             " 'camera': {'eye': [0.53, 1.62, 1.06], 'target': [0.0, 1.58, 0.0], 'fov': 24}, " LOCKED "}"},
     {"fringe", "{'style': 'fringe', 'motion': 'demo', 'settle': 0.5, 'frames': 120, 'picture': 30, " CAMERA
                ", " BLUNT "}"},
     {"fade", "{'style': 'fade', 'motion': 'demo', 'settle': 0.5, 'frames': 120, 'picture': 30, " CAMERA
@@ -67,6 +70,8 @@ const struct hair_builtin hair_builtin_scenes[] = {
 // of wide curls follow one guide, because the mean of curls of different phases is no curl.
 #define SMOOTH "'guide_vertices': 32, 'strand.segments': 24, "
 #define CURLED "'guide_vertices': 64, 'strand.segments': 64, "
+// Wide curls with fewer segments are polygons.
+#define WOUND "'guide_vertices': 64, 'strand.segments': 128, "
 #define EVEN "'clump.weight': '0,0,0.07,0.18,0.32,0.46,0.56,0.6', 'clump.width': 1"
 // Loose hair parts into pointed locks. Without them a veil of strands hangs before the face.
 #define POINTED                                                                                              \
@@ -75,6 +80,9 @@ const struct hair_builtin hair_builtin_scenes[] = {
 #define UNPARTED "'clump.weight': '0,0,0,0.03,0.06,0.1,0.15,0.2', 'clump.width': 1"
 #define LOCKS                                                                                                \
     "'clump.weight': '0,0.4,0.75,0.92,0.97,1,1,1', 'clump.width': '1,0.9,0.75,0.62,0.55,0.52,0.55,0.65'"
+// Coils of neighbouring guides have different phases. Near the roots, strands between them would be
+// straight and show the skin.
+#define COILS "'clump.weight': '0,0.6,0.75,0.75,0.7,0.65,0.6,0.6', 'clump.width': 1"
 #define HELD(root, tip, angular)                                                                             \
     "{'shape.frequency_root': " #root ", 'shape.frequency_tip': " #tip ", 'redblack.angular_hz': " #angular  \
     ", "
@@ -88,8 +96,8 @@ const struct hair_builtin hair_builtin_styles[] = {
     {"fade", HELD(12, 10, 8) SMOOTH UNPARTED "}"},
     {"bun", HELD(12, 12, 8) CURLED EVEN "}"},
     {"braid", HELD(12, 2, 8) CURLED EVEN "}"},
-    {"curly", HELD(8, 3, 4) CURLED LOCKS "}"},
-    {"afro", HELD(12, 8, 8) CURLED EVEN "}"},
+    {"curly", HELD(8, 3, 4) WOUND LOCKS "}"},
+    {"afro", HELD(12, 8, 8) CURLED COILS "}"},
     {NULL, NULL},
 };
 
