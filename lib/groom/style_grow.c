@@ -232,6 +232,21 @@ static void grow_long(uint32_t guide, hair_vec3 root, float scale, uint32_t seed
     hair_style_path_add_curl(path, &wave);
 }
 
+// Bend hair that is cut at the chin. Without a slight wave it is a curtain beside the temple.
+static void add_slight_wave(uint32_t guide, hair_vec3 root, float scale, uint32_t seed, float size,
+                            struct hair_style_path* path)
+{
+    struct hair_curl wave = {.radius = 0.006f * size,
+                             .pitch = 0.085f,
+                             .start = 0.025f * scale,
+                             .full = 0.14f * scale,
+                             .phase = 1.5f * PI * hair_noise(root, 0.04f, seed + 2),
+                             .flat = 0.5f,
+                             .variation = 0.4f,
+                             .seed = hair_hash(guide ^ seed)};
+    hair_style_path_add_curl(path, &wave);
+}
+
 static void grow_bob(uint32_t guide, hair_vec3 root, float scale, uint32_t seed, struct hair_style_path* path)
 {
     float high = layer(root);
@@ -249,16 +264,7 @@ static void grow_bob(uint32_t guide, hair_vec3 root, float scale, uint32_t seed,
         .face = 0.008f,
     };
     run_cut(&walk, root, scale, 0.03f, path);
-    // Without a slight wave, hair falls beside the temple like a curtain.
-    struct hair_curl wave = {.radius = 0.006f,
-                             .pitch = 0.085f,
-                             .start = 0.025f * scale,
-                             .full = 0.14f * scale,
-                             .phase = 1.5f * PI * hair_noise(root, 0.04f, seed + 2),
-                             .flat = 0.5f,
-                             .variation = 0.4f,
-                             .seed = hair_hash(guide ^ seed)};
-    hair_style_path_add_curl(path, &wave);
+    add_slight_wave(guide, root, scale, seed, 1, path);
 }
 
 static void grow_short(hair_vec3 root, float scale, uint32_t seed, struct hair_style_path* path)
@@ -354,7 +360,8 @@ static hair_vec3 comb_from_whorl(hair_vec3 p)
 }
 
 // A bob without a parting. Hair of the forehead is cut above the brows.
-static void grow_fringe(hair_vec3 root, float scale, uint32_t seed, struct hair_style_path* path)
+static void grow_fringe(uint32_t guide, hair_vec3 root, float scale, uint32_t seed,
+                        struct hair_style_path* path)
 {
     float high = layer(root), front = hair_smooth(0.005f, 0.030f, root.z);
     float cut = hair_mix(1.528f, 1.500f, hair_smooth(-0.07f, 0.04f, root.z));
@@ -372,6 +379,7 @@ static void grow_fringe(hair_vec3 root, float scale, uint32_t seed, struct hair_
         .fringe = 1.628f + 0.005f * hair_noise(root, 0.012f, seed + 1),
     };
     run_cut(&walk, root, scale, 0.03f, path);
+    add_slight_wave(guide, root, scale, seed, 0.7f * (1 - front), path);
 }
 
 // Short hair whose sides and back fade to stubble towards the hairline.
@@ -414,7 +422,7 @@ void hair_style_grow(hair_style style, uint32_t guide, hair_vec3 root, float sca
     case HAIR_STYLE_SHORT: grow_short(root, scale, seed, path); break;
     case HAIR_STYLE_PONYTAIL: hair_style_grow_ponytail(root, scale, seed, path); break;
     case HAIR_STYLE_CURLY: grow_curly(guide, root, scale, seed, path); break;
-    case HAIR_STYLE_FRINGE: grow_fringe(root, scale, seed, path); break;
+    case HAIR_STYLE_FRINGE: grow_fringe(guide, root, scale, seed, path); break;
     case HAIR_STYLE_FADE: grow_fade(root, scale, seed, path); break;
     case HAIR_STYLE_BUN: hair_style_grow_bun(root, scale, seed, path); break;
     case HAIR_STYLE_BRAID: hair_style_grow_braid(root, scale, seed, path); break;
