@@ -58,10 +58,10 @@ const struct hair_builtin hair_builtin_scenes[] = {
             "'shape.frequency_root': 8, 'shape.frequency_tip': 6}}"},
     {"wind",
      "{'style': 'long', 'motion': 'still', 'settle': 0.5, 'frames': 150, 'picture': 24,"
-     " 'camera': {'eye': [0.3, 1.6, 1.7], 'target': [0.13, 1.54, 0.0], 'fov': 27},"
+     " 'camera': {'eye': [0.3, 1.6, 1.7], 'target': [0.13, 1.575, 0.0], 'fov': 22},"
      " 'wind': {'velocity': [3, 0, 0], 'model': 'fluid', 'fluid.grid_size': 1, 'turbulence.intensity': "
-     "0.4, 'turbulence.length': 0.25},"
-     " 'settings': {'drag': 0.5, 'shape.frequency_root': 3, 'shape.frequency_tip': 0.3}}"},
+     "0.4, 'turbulence.length': 0.25}," LIGHTS "'settings': {" SETTINGS
+     ", 'drag': 0.5, 'shape.frequency_root': 3, 'shape.frequency_tip': 0.3}}"},
     {NULL, NULL},
 };
 
