@@ -157,7 +157,7 @@ struct head_paint head_paint_skin(point p, float lip, float open)
     // Hair darkens the skin that it grows from, as on a shaved head.
     float dark = 0.80f * head_smooth(-0.001f, 0.015f, head_above_hairline(p)) *
                  head_smooth(0.004f, 0.001f, above_skull(p));
-    dark = fmaxf(dark, 0.45f * head_brow(p));
+    dark = fmaxf(dark, 0.6f * head_brow(p));
     struct head_paint paint = {.kind = 1 + dark, .open = open};
     lip = head_smooth(0.25f, 0.85f, lip);
     for (int i = 0; i < 3; ++i) {

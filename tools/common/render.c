@@ -154,8 +154,8 @@ static void draw_mesh(const struct hair_render* render, GLuint program, const st
                       const struct hair_matrices* matrices)
 {
     if (!shows_mesh(render, frame)) return;
-    // Fine hairs are dots at one sample a pixel.
-    bool has_fine = render->desc.samples * render->desc.supersample > 1;
+    // Fine hairs are dots at four samples a pixel or fewer.
+    bool has_fine = render->desc.samples * render->desc.supersample * render->desc.supersample > 4;
     hair_render_mesh_draw(&render->mesh, program, frame->transform, matrices, has_fine);
 }
 
