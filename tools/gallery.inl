@@ -73,11 +73,11 @@ PICTURE("At rest again, 1.7 s later", "tools/scenes/curls.json --style afro --fr
 
 ROW("A ball comes into hair")
 PICTURE("Only the simulated guides collide with it",
-        "tools/scenes/ball.json --show hair,head,colliders --set followers.collision=none")
+        "tools/scenes/ball.json --show hair,colliders --set followers.collision=none")
 PICTURE("Strands follow one guide below the point where they meet it",
-        "tools/scenes/ball.json --show hair,head,colliders --set followers.collision=single_guide")
+        "tools/scenes/ball.json --show hair,colliders --set followers.collision=single_guide")
 PICTURE("Strands are pushed out of it, the default",
-        "tools/scenes/ball.json --show hair,head,colliders --set followers.collision=push_out")
+        "tools/scenes/ball.json --show hair,colliders --set followers.collision=push_out")
 PICTURE("The guides, and the distance to solids: blue outside, red inside",
         "tools/scenes/ball.json --show guides,colliders --set slice=x --set slice_at=0.72")
 
@@ -96,7 +96,7 @@ PICTURE("Along strands, on blond hair", CLOSE "--set color=blond")
 ROW("Lights, maps and objects")
 PICTURE("A white, a blue and a red lamp", "tools/scenes/lights.json --set color=blond")
 PICTURE("A map of where hair grows", "tools/scenes/maps.json --set followers.map_set=1")
-PICTURE("Objects of a Bullet world", "tools/scenes/bullet.json --show hair,head,colliders")
+PICTURE("Objects of a Bullet world", "tools/scenes/bullet.json --show hair,colliders")
 PICTURE("Fur on a ball", "--scene fur")
 
 ROW("Thin strands, far away")
