@@ -57,27 +57,24 @@ raster_walk walk_of(raster_quad q)
     return w;
 }
 
-// Rasterise `count` pixels of a line from number `from` on.
-void fill(uint segment, raster_quad q, raster_walk w, int line, int from, int count)
+// Rasterise a sample of `count` pixels of a line from number `from` on.
+void fill(uint segment, raster_quad q, raster_walk w, int line, uint s, int from, int count)
 {
-    float middle = w.start + w.slope * float(line - w.first);
     int   low = w.low + from, high = min(w.high, low + count - 1);
-    for (uint s = 0u; s < raster.samples; ++s) {
-        vec2  own   = w.upright ? sample_at(s) : sample_at(s).yx;
-        float at    = middle + w.slope * own.y - own.x;
-        int   first = int(clamp(ceil(at - w.reach), float(low), float(high + 1)));
-        int   last  = int(clamp(floor(at + w.reach), float(low - 1), float(high)));
-        for (int i = first; i <= last; ++i) {
-            ivec2 pixel = w.upright ? ivec2(i, line) : ivec2(line, i);
-            vec2  place = vec2(pixel) - q.origin + sample_at(s);
-            uint  number = (uint(pixel.y) * raster.columns + uint(pixel.x)) * raster.samples + s;
+    vec2  own   = w.upright ? sample_at(s) : sample_at(s).yx;
+    float at    = w.start + w.slope * (float(line - w.first) + own.y) - own.x;
+    int   first = int(clamp(ceil(at - w.reach), float(low), float(high + 1)));
+    int   last  = int(clamp(floor(at + w.reach), float(low - 1), float(high)));
+    for (int i = first; i <= last; ++i) {
+        ivec2 pixel = w.upright ? ivec2(i, line) : ivec2(line, i);
+        vec2  place = vec2(pixel) - q.origin + sample_at(s);
+        uint  number = (uint(pixel.y) * raster.columns + uint(pixel.x)) * raster.samples + s;
 #ifdef HAIR_ALPHA_COVERAGE
-            add_opacity(segment, q, number, pixel, place);
+        add_opacity(segment, q, number, pixel, place);
 #else
-            float fraction, depth;
-            if (sees(q, place, fraction, depth)) take(segment, number, depth);
+        float fraction, depth;
+        if (sees(q, place, fraction, depth)) take(segment, number, depth);
 #endif
-        }
     }
 }
 
@@ -103,8 +100,16 @@ uint fill_small(uint segment, int own)
     float       width = min(2.0 * w.reach + 1.0, float(w.high - w.low + 1));
     if (float(lines) * width > HAIR_RASTER_SMALL * float(raster.split))
         return own == 0 ? uint(lines) * pieces_of(w) : 0u;
-    for (int line = w.first + own; line <= w.last; line += int(raster.split))
-        fill(segment, q, w, line, 0, w.high - w.low + 1);
+    int count = w.high - w.low + 1;
+    if (raster.samples == 1u) {
+        for (int line = w.first + own; line <= w.last; line += int(raster.split))
+            fill(segment, q, w, line, 0u, 0, count);
+        return 0u;
+    }
+    // Neighbouring threads have the samples of a pixel, which are side by side in memory.
+    uint all = uint(lines) * raster.samples;
+    for (uint i = uint(own); i < all; i += raster.split)
+        fill(segment, q, w, w.first + int(i / raster.samples), i % raster.samples, 0, count);
     return 0u;
 }
 
@@ -133,8 +138,9 @@ void rasterise(uint base)
         raster_quad q    = quad_of(ribbon_of(segment));
         raster_walk w    = walk_of(q);
         uint        each = pieces_of(w);
-        fill(segment, q, w, w.first + int(piece / each), int(piece % each) * HAIR_RASTER_PIECE,
-             HAIR_RASTER_PIECE);
+        for (uint s = 0u; s < raster.samples; ++s)
+            fill(segment, q, w, w.first + int(piece / each), s, int(piece % each) * HAIR_RASTER_PIECE,
+                 HAIR_RASTER_PIECE);
     }
 }
 
