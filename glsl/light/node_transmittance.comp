@@ -1,6 +1,8 @@
 // node_transmittance.comp - self-shadowing at every grid node with hair: the number of strands and
-// colliders on the way to each light, and the visible fraction of the sky. Each thread covers
-// several nodes.
+// colliders on the way to each light, and the visible fraction of the sky.
+//
+// Few nodes have hair. A work group lists them until there is one for each of its threads. The
+// threads then follow the ways from the listed nodes.
 //
 // Steps are one cell long. The first midpoint is one cell away, because a strand must not shade
 // itself. All hair counts as if it lay across the light.
@@ -13,7 +15,7 @@ layout(std430, binding = HAIR_BIND_DENSITY_LIGHT) writeonly restrict buffer node
     float light_of_node[];
 };
 
-#define SKY_WAYS 6
+#define SKY_WAYS 6u
 #define SKY_STEPS 5     // Each is twice as long as the one before.
 #define MAX_STEPS 1024.0 // Maximum number of cells on the way to a light. Long grids have more.
 #define TURNED 0.785398 // Mean factor of a strand's projected width over all directions.
@@ -31,44 +33,75 @@ float met_towards(density_grid grid, vec3 place, vec3 position, vec3 to, float r
     return min(sum, MAX_MET);
 }
 
-float sky_at_node(density_grid grid, vec3 place, vec3 position)
+// Return the visible fraction of the sky along a coordinate axis of the head.
+float sky_along(density_grid grid, vec3 place, vec3 position, uint axis)
 {
-    float sum = 0.0;
-    for (int i = 0; i < SKY_WAYS; ++i) {
-        vec3 way   = vec3(0.0);
-        way[i / 2] = i % 2 == 0 ? 1.0 : -1.0;
-        vec3  to   = rotate(draw.head, way);
-        float met  = 0.0, from = 0.5;
-        for (int k = 0; k < SKY_STEPS && met < MAX_MET; ++k) {
-            float each = exp2(float(k)), middle = from + 0.5 * each;
-            met += TURNED * each * density_at(grid, place + middle * way);
-            if (is_inside(position + middle * grid.cell * to)) met = MAX_MET;
-            from += each;
-        }
-        sum += exp(-met);
+    vec3 way       = vec3(0.0);
+    way[axis / 2u] = axis % 2u == 0u ? 1.0 : -1.0;
+    vec3  to       = rotate(draw.head, way);
+    float met      = 0.0, from = 0.5;
+    for (int k = 0; k < SKY_STEPS && met < MAX_MET; ++k) {
+        float each = exp2(float(k)), middle = from + 0.5 * each;
+        met += TURNED * each * density_at(grid, place + middle * way);
+        if (is_inside(position + middle * grid.cell * to)) met = MAX_MET;
+        from += each;
     }
-    return sum / float(SKY_WAYS);
+    return exp(-met);
 }
 
-void light(density_grid grid, uint node)
+shared uint  nodes; // Number of nodes in the list.
+shared uint  node_at[2u * HAIR_GROUP_SIZE];
+shared float sky[SKY_WAYS * HAIR_GROUP_SIZE]; // Visible fractions along each axis.
+
+// Follow way number `which` from a node, to the sky or to a light. `at` is the place of the node.
+void follow(density_grid grid, uint node, uint at, uint which)
 {
     vec3 place =
         vec3(node % grid.nodes.x, node / grid.nodes.x % grid.nodes.y, node / (grid.nodes.x * grid.nodes.y));
     vec3 position = rotate(draw.head, grid.lower + grid.cell * place);
-    light_of_node[node * draw.light_values] = sky_at_node(grid, place, position);
-    for (uint i = 0u; i < draw.lights; ++i) {
-        vec4  at    = draw.light[i * HAIR_LIGHT_VECTORS + HAIR_LIGHT_TO];
-        float reach = at.w > 0.0 ? length(at.xyz - position) : 1e9;
-        light_of_node[node * draw.light_values + 1u + i] =
-            met_towards(grid, place, position, beam_at(i, position).to, reach);
+    if (which < SKY_WAYS) {
+        sky[which * HAIR_GROUP_SIZE + at] = sky_along(grid, place, position, which);
+        return;
     }
+    uint  i     = which - SKY_WAYS;
+    vec4  light = draw.light[i * HAIR_LIGHT_VECTORS + HAIR_LIGHT_TO];
+    float reach = light.w > 0.0 ? length(light.xyz - position) : 1e9;
+    light_of_node[node * draw.light_values + 1u + i] =
+        met_towards(grid, place, position, beam_at(i, position).to, reach);
+}
+
+// Find the light of the last nodes in the list, a node per thread, and shorten the list.
+void find_light(density_grid grid)
+{
+    uint own = gl_LocalInvocationID.x, count = min(nodes, HAIR_GROUP_SIZE), first = nodes - count;
+    uint ways = count * (SKY_WAYS + draw.lights);
+    for (uint i = own; i < ways; i += HAIR_GROUP_SIZE)
+        follow(grid, node_at[first + i % count], i % count, i / count);
+    synchronise();
+    if (own < count) {
+        float sum = 0.0;
+        for (uint i = 0u; i < SKY_WAYS; ++i) sum += sky[i * HAIR_GROUP_SIZE + own];
+        light_of_node[node_at[first + own] * draw.light_values] = sum / float(SKY_WAYS);
+    }
+    if (own == 0u) nodes = first;
+    synchronise();
 }
 
 void main()
 {
     density_grid grid = find_grid();
-    uint end = grid.nodes.x * grid.nodes.y * grid.nodes.z,
+    uint own = gl_LocalInvocationID.x, end = grid.nodes.x * grid.nodes.y * grid.nodes.z,
          stride = hair_group_count() * HAIR_GROUP_SIZE;
-    for (uint node = hair_group() * HAIR_GROUP_SIZE + gl_LocalInvocationID.x; node < end; node += stride)
-        if (density[node] > 0u) light(grid, node);
+    if (own == 0u) nodes = 0u;
+    synchronise();
+    for (uint base = hair_group() * HAIR_GROUP_SIZE; base < end; base += stride) {
+        uint node = base + own;
+        // The order of the list does not matter.
+        if (node < end && density[node] > 0u) node_at[atomicAdd(nodes, 1u)] = node;
+        synchronise();
+        uint count = nodes;
+        synchronise(); // No thread adds a node before all have read the number.
+        if (count >= HAIR_GROUP_SIZE) find_light(grid);
+    }
+    if (nodes > 0u) find_light(grid);
 }
