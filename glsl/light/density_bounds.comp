@@ -12,14 +12,15 @@ void main()
     vertex_range run = find_vertex_range();
     if (i < 6u) own[i] = 0xffffffffu;
     synchronise();
+    uvec3 low = uvec3(0xffffffffu), high = low;
     for (uint vertex = run.first; vertex < run.end; vertex += run.stride) {
-        vec3  at = in_head(strand_vertex[vertex].xyz);
-        uvec3 u  = to_float_key(at);
-        for (int k = 0; k < 3; ++k) {
-            atomicMin(own[k], u[k]);
-            atomicMin(own[3 + k], ~u[k]);
-        }
+        uvec3 u = to_float_key(in_head(strand_vertex[vertex].xyz));
+        low = min(low, u), high = min(high, ~u);
+    }
+    for (int k = 0; k < 3 && run.first < run.end; ++k) {
+        atomicMin(own[k], low[k]);
+        atomicMin(own[3 + k], high[k]);
     }
     synchronise();
-    if (i < 6u) atomicMin(box[i], own[i]);
+    if (i < 6u && own[i] < box[i]) atomicMin(box[i], own[i]);
 }
