@@ -111,6 +111,8 @@ typedef enum hair_slice {
 /// Lines have no width, so they cover less. HAIR_SELF_SHADOW_STRANDS computes the light of drawn
 /// strands only.
 ///
+/// Small hair does not get new light in every frame, by light_pixels.
+///
 /// With per_patch, two more details depend on the size on the screen. Cells of
 /// HAIR_SELF_SHADOW_STRANDS are at least 1 pixel large. Followers are pushed out of colliders only
 /// if 5 mm are more than a pixel, and fully from 2 pixels on. A view that does not show this
@@ -139,6 +141,11 @@ typedef struct hair_lod {
     /// roots. Below 1, hair that the head certainly occludes is not drawn. The application must
     /// then draw the head. Hair outside the view is never drawn.
     float occluded_importance; ///< [0, 1]. Default 1.
+    /// Size of hair at rest on the screen up to which its light is computed in every second frame
+    /// only. With half of the size it is computed in every third frame, and with a third of it in
+    /// every fourth. A frame is a step of the instance. Instances at different positions take
+    /// turns. This is the light of HAIR_SELF_SHADOW_STRANDS. 0 computes it in every frame.
+    float light_pixels; ///< Pixels. [0, 10000]. Default 128.
 } hair_lod;
 HAIR_DESC(hair_lod)
 

@@ -3,7 +3,7 @@
 
 #include <math.h>
 
-#define MAX_LIGHT_INTERVAL 4 // Frames that a budget may keep the light of small heads.
+#define MAX_LIGHT_INTERVAL 4 // Frames that the light of small hair is kept at most.
 
 // Check the framebuffer. Drawing into an incomplete one would raise the application's error flag
 // and draw nothing.
@@ -107,18 +107,28 @@ static hair_result draw_surroundings(hair_instance* hair, const hair_view* view)
     return view->pass == HAIR_PASS_COLLIDERS ? draw_colliders(hair, view) : draw_air(hair, view);
 }
 
+// Return for how many frames the light of hair may be kept. `scale` is in pixels per metre.
+static uint32_t find_light_interval(const hair_instance* hair, const hair_lod* lod, float scale)
+{
+    const hair_vec3 size = hair->renderer.rest_size;
+    float pixels = scale * fmaxf(size.x, fmaxf(size.y, size.z));
+    float by_size = 1 + floorf(lod->light_pixels / fmaxf(pixels, 1));
+    return (uint32_t)fminf(fmaxf(by_size, 1 / hair->sim.rate_factor), MAX_LIGHT_INTERVAL);
+}
+
 // Note how large hair is in a view, and what the view would need to give up nothing.
 static void note_size(hair_instance* hair, const struct hair_view_copy* copy)
 {
     const hair_view* view = &copy->view;
     struct hair_budget* budget = &hair->context->budget;
     hair->renderer.sample_divisor = budget->ms > 0 ? budget->sample_divisor : 1;
-    hair->renderer.light_age.interval = (uint32_t)fminf(1 / hair->sim.rate_factor, MAX_LIGHT_INTERVAL);
-    if (!budget->ms) return;
-    budget->has_drawn = true;
+    if (!budget->ms && !view->lod) return;
+    budget->has_drawn |= budget->ms > 0;
     if (view->pass != HAIR_PASS_COLOR && view->pass != HAIR_PASS_MOTION) return;
     const struct hair_pose* head = &hair->sim.head_at_last_step;
     float scale = hair_draw_pixels_per_metre(&hair->renderer, head, view);
+    if (view->lod) hair->renderer.light_age.interval = find_light_interval(hair, view->lod, scale);
+    if (!budget->ms) return;
     hair->budget.pixels = fmaxf(hair->budget.pixels, 2 * hair->renderer.reach.w * scale);
     if (!copy->has_lod) hair_budget_note(budget, hair_draw_full_importance(&hair->renderer, scale));
 }

@@ -1,5 +1,6 @@
 // instance.c - public calls that create, move and step one head of living hair.
 #include "lib/api/api.h"
+#include "lib/base/crc.h"
 
 #include <string.h>
 
@@ -75,6 +76,8 @@ hair_result hair_instance_create_rooms(hair_instance* hair, const hair_groom* gr
     HAIR_TRY(hair_lighting_create(&hair->lighting, gl, groom));
     hair_renderer_create(&hair->renderer, gl, groom, hair->bounds, &hair->geometry, &hair->lighting,
                          &context->fastest);
+    // A number of the instance alone, so that no picture depends on other instances.
+    hair->renderer.light_age.turn = hair_crc_add(0, sim->head.position, sizeof sim->head.position);
     hair_sim_reset(&hair->sim);
     return HAIR_OK;
 }

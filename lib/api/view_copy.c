@@ -135,6 +135,7 @@ void hair_reduce_view(const hair_instance* hair, struct hair_view_copy* copy)
     if (!copy->has_lod) {
         copy->lod = hair_lod_default();
         copy->lod.importance = budget->importance;
+        copy->lod.light_pixels = 0; // The budget alone decides.
         return;
     }
     float factor = fminf(budget->importance, 1);

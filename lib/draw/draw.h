@@ -47,7 +47,9 @@ enum hair_draw_resource {
 // Light of vertices that was computed last, which later frames may use.
 struct hair_light_age {
     uint32_t interval; // Number of frames for which light is kept. 0 or 1 computes it in each.
+    uint32_t turn; // Number that lets instances compute their light in different frames.
     uint32_t frame; // Frame of the light.
+    uint32_t frame_index; // hair_view.frame_index of the view whose light was computed.
     uint32_t lights; // Values of a vertex. 0 without light.
     double fraction; // About which fraction of the strands have light.
 };

@@ -40,10 +40,13 @@ static bool keeps_light(const struct hair_renderer* renderer, const struct hair_
     const struct hair_self_shadow_state* self_shadow = &renderer->lighting->self_shadow;
     const hair_lod* lod = plan->view->lod;
     size_t vertices = hair_geometry_count_vertices(renderer->geometry);
-    return age->interval > 1 && lod && self_shadow->texture &&
-           self_shadow->numbers == vertices * plan->light_values && age->lights == plan->light_values &&
-           renderer->frame - age->frame < age->interval &&
-           hair_draw_estimate_fraction(renderer, lod) <= age->fraction;
+    uint32_t frames = renderer->frame - age->frame, index = plan->view->frame_index;
+    bool fits = age->interval > 1 && lod && self_shadow->texture &&
+                self_shadow->numbers == vertices * plan->light_values && age->lights == plan->light_values &&
+                hair_draw_estimate_fraction(renderer, lod) <= age->fraction;
+    // Lights may change while hair is not stepped.
+    if (!fits || frames == 0) return fits && index && index == age->frame_index;
+    return frames < age->interval && (renderer->frame + age->turn) % age->interval != 0;
 }
 
 hair_result hair_draw_ensure_self_shadow(struct hair_renderer* renderer, struct hair_draw_plan* plan)
@@ -67,7 +70,9 @@ hair_result hair_draw_ensure_self_shadow(struct hair_renderer* renderer, struct 
                                               &drawn, part);
     struct hair_light_age* age = &renderer->light_age;
     *age = (struct hair_light_age){.interval = age->interval,
+                                   .turn = age->turn,
                                    .frame = renderer->frame,
+                                   .frame_index = plan->view->frame_index,
                                    .lights = result ? 0 : plan->light_values,
                                    .fraction = hair_draw_estimate_fraction(renderer, plan->view->lod)};
     return result;

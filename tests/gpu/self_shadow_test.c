@@ -336,6 +336,7 @@ static void self_shadow_lights_only_strands_of_the_level_of_detail(void** state)
     uint32_t lit = 0;
     lod.per_patch = false;
     lod.strand_fraction = 0.25f;
+    lod.light_pixels = 0;
     for (int i = 0; i < 2; ++i) {
         f.scene.view.lod = i ? &lod : NULL;
         hair_test_ok(f.scene.test, hair_step(f.scene.hair, 0.01f));

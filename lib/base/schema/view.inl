@@ -15,6 +15,8 @@ FLOAT(hair_lod, importance, 1, 0, 1000, 0.1, 10, LOG, "",
       "Factor of the projected size that selects the level of detail.")
 FLOAT(hair_lod, occluded_importance, 1, 0, 1, 0, 1, LINEAR, "",
       "Factor of the projected size of hair behind the head, whose position is estimated from the roots.")
+FLOAT(hair_lod, light_pixels, 128, 0, 10000, 0, 512, LINEAR, "pixels",
+      "Size of hair at rest on the screen up to which its light is computed in every second frame only.")
 END
 BEGIN(hair_shader_desc)
 POINTER(hair_shader_desc, label, "Name in error messages, as in \"label:12: ...\".")
