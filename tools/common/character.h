@@ -74,6 +74,8 @@ hair_result hair_character_create_body(struct hair_character* character, hair_co
                                        const float pivot[3], float reach);
 // Bind an instance to the joints, and put its hair at rest in the present pose.
 hair_result hair_character_attach(struct hair_character* character, hair_instance* hair);
+// Move an instance and its scalp to the pose of hair_character_pose().
+hair_result hair_character_move_hair(struct hair_character* character, hair_instance* hair);
 // Move an instance, its scalp and the body to the pose of hair_character_pose().
 hair_result hair_character_move(struct hair_character* character, hair_instance* hair);
 // Return the collider of the body.

@@ -361,10 +361,15 @@ static hair_result move_scalp(struct hair_character* character, hair_instance* h
     return hair_set_scalp_joints(hair, character->scalp_matrices, character->joint_count, NULL);
 }
 
-hair_result hair_character_move(struct hair_character* character, hair_instance* hair)
+hair_result hair_character_move_hair(struct hair_character* character, hair_instance* hair)
 {
     hair_result result = hair_set_transform(hair, character->transform);
-    if (!result && character->scalp_count) result = move_scalp(character, hair);
+    return !result && character->scalp_count ? move_scalp(character, hair) : result;
+}
+
+hair_result hair_character_move(struct hair_character* character, hair_instance* hair)
+{
+    hair_result result = hair_character_move_hair(character, hair);
     if (result || !character->body) return result;
     clamp_positions(character);
     return hair_body_set_positions(character->body, character->clamped, character->mesh.vertex_count,

@@ -67,7 +67,7 @@ bool view_project(const viewer& viewer, const float point[3], ImVec2& out)
     view_axes axes = view_camera_axes(scene);
     float x = 0, y = 0, depth = 0;
     for (int i = 0; i < 3; ++i) {
-        float offset = point[i] - scene.eye[i];
+        float offset = point[i] - scene.eye[i] - viewer.session.way[i];
         x += offset * axes.right[i];
         y += offset * axes.up[i];
         depth -= offset * axes.back[i];

@@ -18,7 +18,7 @@ void find_far_end(const viewer& viewer, float x, float y, float out[3])
     float width = picture.right - picture.left, height = picture.bottom - picture.top, ray[3];
     float far = view_camera_axes(scene).distance + 2 * viewer.session.reach;
     view_camera_ray(scene, (x - picture.left) / width, (y - picture.top) / height, width / height, ray);
-    for (int i = 0; i < 3; ++i) out[i] = scene.eye[i] + far * ray[i];
+    for (int i = 0; i < 3; ++i) out[i] = scene.eye[i] + viewer.session.way[i] + far * ray[i];
 }
 
 } // namespace
@@ -39,8 +39,8 @@ void view_blade_cut(viewer& viewer, float x, float y)
     if (dx * dx + dy * dy < shortest * shortest) return;
     hair_cut_desc cut = hair_cut_desc_default();
     cut.shape = HAIR_CUT_SHAPE_BLADE;
-    memcpy(cut.start, viewer.document.scene->eye, sizeof cut.start);
-    memcpy(cut.last_start, viewer.document.scene->eye, sizeof cut.last_start);
+    for (int i = 0; i < 3; ++i)
+        cut.start[i] = cut.last_start[i] = viewer.document.scene->eye[i] + viewer.session.way[i];
     find_far_end(viewer, viewer.blade[0], viewer.blade[1], cut.last_end);
     find_far_end(viewer, x, y, cut.end);
     // The reference of the motion has whole guides.

@@ -8,6 +8,7 @@
 extern "C" {
 #include "tools/bullet/world.h"
 #include "tools/common/camera.h"
+#include "tools/common/character.h"
 #include "tools/common/cuts.h"
 #include "tools/common/file.h"
 #include "tools/common/frame_writer.h"

@@ -270,7 +270,7 @@ int view_debug_draw(viewer& viewer, uint32_t width, uint32_t height)
     if (debug.mode == VIEW_DEBUG_OFF) return HAIR_EXIT_OK;
     int code = view_debug_make_programs(debug, viewer.session.context);
     if (code) return code;
-    hair_scene seen = *viewer.document.scene;
+    hair_scene seen = view_session_seen(viewer.session, *viewer.document.scene);
     hair_matrices matrices;
     seen.width = width;
     seen.height = height;

@@ -44,7 +44,7 @@ float length_at(const viewer& viewer, const float point[3], float fraction)
     const hair_scene& scene = *viewer.document.scene;
     view_axes axes = view_camera_axes(scene);
     float depth = 0;
-    for (int i = 0; i < 3; ++i) depth += (scene.eye[i] - point[i]) * axes.back[i];
+    for (int i = 0; i < 3; ++i) depth += (scene.eye[i] + viewer.session.way[i] - point[i]) * axes.back[i];
     return fraction * view_camera_height(scene) * std::max(depth / axes.distance, 0.0f);
 }
 

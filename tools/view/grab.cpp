@@ -78,7 +78,7 @@ hair_matrices matrices_at(const viewer& viewer, float x, float y)
     const view_place& picture = viewer.picture;
     float density = viewer.stage.density;
     float width = density * (picture.right - picture.left), height = density * (picture.bottom - picture.top);
-    hair_scene seen = *viewer.document.scene;
+    hair_scene seen = view_session_seen(viewer.session, *viewer.document.scene);
     seen.width = std::max(1u, (uint32_t)width);
     seen.height = std::max(1u, (uint32_t)height);
     hair_matrices matrices;
@@ -142,7 +142,7 @@ int find_collider(const viewer& viewer, const float ray[3])
         float radius = collider.rounding + std::max({collider.size[0], collider.size[1], collider.size[2]});
         float along = 0, square = 0;
         for (int k = 0; k < 3; ++k) {
-            float offset = collider.position[k] - scene.eye[k];
+            float offset = collider.position[k] - scene.eye[k] - viewer.session.way[k];
             along += offset * ray[k];
             square += offset * offset;
         }
@@ -187,7 +187,8 @@ void view_grab_move(viewer& viewer, float x, float y)
     if (viewer.drag == VIEW_DRAG_HAIR && !viewer.session.pins.empty()) {
         position = viewer.session.pins[0].position;
         float depth = 0; // Hair before the target moves less for the same way of the mouse.
-        for (int i = 0; i < 3; ++i) depth += (scene.eye[i] - position[i]) * axes.back[i];
+        for (int i = 0; i < 3; ++i)
+            depth += (scene.eye[i] + viewer.session.way[i] - position[i]) * axes.back[i];
         for (float& v : by) v *= std::max(depth / axes.distance, 0.0f);
     } else if (viewer.drag == VIEW_DRAG_COLLIDER && viewer.held_collider < (int)scene.collider_count) {
         view_move_collider(viewer, scene.colliders[viewer.held_collider], by);
@@ -219,7 +220,8 @@ void view_add_ball(viewer& viewer)
     collider.stays = true;
     for (int i = 0; i < 3; ++i) {
         collider.collider.size[i] = i ? 0.1f : ball_radius;
-        collider.collider.position[i] = scene.target[i] + aside * axes.right[i] + 0.05f * axes.back[i];
+        collider.collider.position[i] =
+            scene.target[i] + viewer.session.way[i] + aside * axes.right[i] + 0.05f * axes.back[i];
     }
     scene.show |= HAIR_SHOW_COLLIDERS;
 }

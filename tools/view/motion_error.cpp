@@ -60,7 +60,7 @@ hair_result make_twin(view_session& session, const hair_scene& scene)
     desc.thread_mapping = HAIR_THREAD_MAPPING_AUTO;
     desc.substep = substep;
     desc.physics = &scene.settings.physics;
-    hair_motion_at(&scene.motion, 0, desc.transform);
+    memcpy(desc.transform, session.transform, sizeof desc.transform);
     hair_wind wind = hair_scene_wind_of(&scene.settings, &scene.wind);
     hair_result result = hair_create(session.context, session.groom, &desc, &session.twin);
     if (!result) result = hair_groups_apply(session.twin, &scene.settings, nullptr);

@@ -173,6 +173,7 @@ const char* view_reference_obstacle(const hair_scene& scene)
     const hair_wind& wind = settings.wind;
     bool has_wind = wind.velocity[0] != 0 || wind.velocity[1] != 0 || wind.velocity[2] != 0;
     bool varies = wind.shelter > 0 || wind.turbulence.intensity > 0 || wind.model != HAIR_WIND_AMBIENT;
+    if (*scene.character.file) return "a character bends the scalp";
     if (scene.wind.count || (has_wind && varies)) return "the wind varies";
     if (settings.physics.hair_hair.cohesion > 0 || settings.physics.hair_hair.pressure_stiffness > 0)
         return "hairs touch";

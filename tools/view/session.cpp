@@ -25,22 +25,33 @@ bool groom_differs(const hair_scene& a, const hair_scene& b)
            a.fur_length != b.fur_length || a.ball_radius != b.ball_radius ||
            differs(a.settings.import, b.settings.import) || differs(a.settings.style, b.settings.style) ||
            differs(a.settings.groom, b.settings.groom) || a.maps.count != b.maps.count ||
-           differs(a.maps, b.maps) || differs(a.attributes, b.attributes);
+           differs(a.maps, b.maps) || differs(a.attributes, b.attributes) ||
+           differs(a.character, b.character);
+}
+
+// Find the bounds of a haircut at rest. Set the pivot of a scene without one, and the reach.
+hair_bounds measure(const hair_groom* groom, hair_scene& scene, float& reach)
+{
+    hair_groom_info info = hair_groom_info_default();
+    hair_bounds bounds;
+    hair_groom_describe(groom, &info);
+    for (int i = 0; i < 3; ++i) {
+        bounds.lower[i] = info.lower[i];
+        bounds.upper[i] = info.upper[i];
+        if (!scene.head && !scene.pivot_is_said)
+            scene.motion.pivot[i] = 0.5f * (bounds.lower[i] + bounds.upper[i]);
+    }
+    // Hair swings beyond its bounds at rest.
+    reach = 1.15f * hair_camera_reach(&scene, &bounds);
+    return bounds;
 }
 
 // Set what depends on the size of the haircut.
 void fit(view_session& session, hair_scene& scene)
 {
-    hair_bounds bounds;
-    for (int i = 0; i < 3; ++i) {
-        bounds.lower[i] = session.info.lower[i];
-        bounds.upper[i] = session.info.upper[i];
-        if (!scene.head && !scene.pivot_is_said)
-            scene.motion.pivot[i] = 0.5f * (bounds.lower[i] + bounds.upper[i]);
-    }
+    hair_bounds bounds = measure(session.groom, scene, session.reach);
+    if (session.character) hair_character_bounds(session.character, &bounds);
     if (!scene.framed) hair_camera_frame(&scene, &bounds);
-    // Hair swings beyond its bounds at rest.
-    session.reach = 1.15f * hair_camera_reach(&scene, &bounds);
 }
 
 hair_result set_colliders(view_session& session, const hair_scene& scene)
@@ -57,9 +68,10 @@ hair_result set_colliders(view_session& session, const hair_scene& scene)
     bool meshes = scene.head && scene.settings.desc.solver != HAIR_SOLVER_REDBLACK;
     if (meshes && !session.head[0] && head_collision_meshes_create(&session.host, session.head))
         return HAIR_ERROR_MEMORY;
-    session.colliders.resize(HAIR_HEAD_RIG_COLLIDERS + other_count);
+    session.colliders.resize(HAIR_HEAD_RIG_COLLIDERS + 1 + other_count);
     uint32_t count = hair_head_rig_colliders(&scene, meshes ? session.head : nullptr, time, session.transform,
                                              session.colliders.data());
+    if (session.character) session.colliders[count++] = hair_character_collider(session.character);
     std::copy(others, others + other_count, session.colliders.begin() + count);
     count += other_count;
     session.colliders.resize(count);
@@ -91,32 +103,77 @@ hair_result step_pieces(view_session& session, float dt)
     return hair_cuts_step(&pieces, session.colliders.data(), (uint32_t)session.colliders.size(), dt);
 }
 
-hair_result create_hair(view_session& session, const hair_scene& scene, hair_groom* groom,
-                        hair_instance** out)
+void destroy_renders(view_session& session)
+{
+    for (hair_render*& render : session.renders) {
+        if (render) hair_render_destroy(render);
+        render = nullptr;
+    }
+    session.render = nullptr;
+}
+
+// Compute the transform of the head at the time of the session. A character takes its pose.
+hair_result find_pose(const view_session& session, const hair_scene& scene, hair_character* character,
+                      float transform[16])
+{
+    float time = (float)session.time;
+    if (!character) {
+        hair_motion_at(&scene.motion, time, transform);
+        return HAIR_OK;
+    }
+    if (!hair_character_pose(character, time)) return HAIR_ERROR_FILE;
+    memcpy(transform, character->transform, 16 * sizeof *transform);
+    return HAIR_OK;
+}
+
+// Make the body of a character, unless there is one.
+hair_result create_body(view_session& session, hair_scene& scene, const hair_groom* groom,
+                        hair_character& character)
+{
+    float reach;
+    measure(groom, scene, reach);
+    if (character.body) return HAIR_OK;
+    return hair_character_create_body(&character, session.context, scene.motion.pivot, reach);
+}
+
+hair_result create_hair(view_session& session, hair_scene& scene, hair_groom* groom,
+                        hair_character* character, hair_instance** out)
 {
     hair_desc desc = scene.settings.desc;
     hair_wind wind = hair_scene_wind_of(&scene.settings, &scene.wind);
     desc.label = session.name.c_str();
     desc.physics = &scene.settings.physics;
     desc.look = &scene.settings.look;
-    hair_motion_at(&scene.motion, (float)session.time, desc.transform);
-    hair_result result = hair_create(session.context, groom, &desc, out);
+    hair_result result = character ? create_body(session, scene, groom, *character) : HAIR_OK;
+    if (!result) result = find_pose(session, scene, character, desc.transform);
+    if (!result) result = hair_create(session.context, groom, &desc, out);
     if (!result) result = hair_groups_apply(*out, &scene.settings, nullptr);
     if (!result) result = hair_set_wind(*out, &wind);
-    return result;
+    return !result && character ? hair_character_attach(character, *out) : result;
 }
 
-// Make the instance anew, of a groom that becomes the session's.
-int replace_hair(view_session& session, hair_scene& scene, hair_groom* groom)
+// Let a character take the place of the present one. Strands that were cut off may touch its body.
+void replace_character(view_session& session, hair_character* character)
+{
+    if (character == session.character) return;
+    hair_cuts_destroy(&session.pieces);
+    destroy_renders(session);
+    hair_character_destroy(session.character);
+    session.character = character;
+}
+
+// Make the instance anew, of a groom and a character that become the session's.
+int replace_hair(view_session& session, hair_scene& scene, hair_groom* groom, hair_character* character)
 {
     hair_instance* hair = nullptr;
     hair_world* world = nullptr;
     auto world_scene = std::make_unique<hair_scene>(scene);
-    int code = hair_exit_for(create_hair(session, scene, groom, &hair));
+    int code = hair_exit_for(create_hair(session, scene, groom, character, &hair));
     if (!code) code = hair_world_create(TOOL, session.name.c_str(), world_scene.get(), &session.host, &world);
     if (code) {
         hair_destroy(hair);
         if (groom != session.groom) hair_groom_destroy(groom);
+        if (character != session.character) hair_character_destroy(character);
         return code;
     }
     hair_destroy(session.hair);
@@ -124,6 +181,7 @@ int replace_hair(view_session& session, hair_scene& scene, hair_groom* groom)
     session.twin = nullptr;
     hair_world_destroy(session.world);
     if (groom != session.groom) hair_groom_destroy(session.groom);
+    replace_character(session, character);
     session.hair = hair;
     session.world = world;
     session.world_scene = std::move(world_scene);
@@ -172,29 +230,29 @@ void restore(view_session& session, const hair_scene& scene)
 int remake(view_session& session, hair_scene& scene, bool with_groom)
 {
     hair_groom* groom = session.groom;
-    int code =
-        with_groom ? hair_groom_source_load(TOOL, &session.host, &scene, nullptr, &groom) : HAIR_EXIT_OK;
-    if (!code) code = replace_hair(session, scene, groom);
+    hair_character* character = session.character;
+    if (*scene.character.file && scene.settings.desc.solver == HAIR_SOLVER_REDBLACK) {
+        hair_complain(TOOL, "the solver redblack knows no bodies that deform, which a character needs");
+        return HAIR_EXIT_USAGE;
+    }
+    if (!with_groom) return replace_hair(session, scene, groom, character);
+    int code = hair_character_create(TOOL, &scene, &character);
+    if (code) return code;
+    code = hair_groom_source_load(TOOL, &session.host, &scene, character, &groom);
+    if (!code) return replace_hair(session, scene, groom, character);
+    hair_character_destroy(character);
     return code;
 }
 
 // Step the second head, which moves and is held like the first.
 hair_result step_twin(view_session& session, float dt)
 {
-    hair_result result = hair_set_transform(session.twin, session.transform);
+    hair_result result = session.character ? hair_character_move_hair(session.character, session.twin)
+                                           : hair_set_transform(session.twin, session.transform);
     if (!result)
         result =
             hair_set_pins(session.twin, session.pins.data(), (uint32_t)session.pins.size(), sizeof(hair_pin));
     return result ? result : hair_step(session.twin, dt);
-}
-
-void destroy_renders(view_session& session)
-{
-    for (hair_render*& render : session.renders) {
-        if (render) hair_render_destroy(render);
-        render = nullptr;
-    }
-    session.render = nullptr;
 }
 
 } // namespace
@@ -218,6 +276,7 @@ void view_session_close(view_session& session)
     hair_destroy(session.twin);
     hair_world_destroy(session.world);
     destroy_renders(session);
+    hair_character_destroy(session.character);
     for (hair_collision_mesh* mesh : session.head) hair_collision_mesh_destroy(mesh);
     hair_context_destroy(session.context);
     hair_groom_destroy(session.groom);
@@ -227,6 +286,7 @@ int view_session_apply(view_session& session, hair_scene& scene, const std::stri
 {
     bool is_first = !session.applied;
     session.name = name;
+    if (*scene.character.file) scene.head = false;
     bool with_groom = is_first || groom_differs(*session.applied, scene);
     bool with_world = !is_first && session.applied->bullet.object != scene.bullet.object;
     int code = HAIR_EXIT_OK;
@@ -237,8 +297,6 @@ int view_session_apply(view_session& session, hair_scene& scene, const std::stri
         if (code) restore(session, scene);
     }
     if (code) return code;
-    if (*scene.character.file && (is_first || with_groom))
-        hair_complain(TOOL, "%s is not shown, only its hair; hair-capture films it", scene.character.file);
     bool has_other_mesh =
         !is_first && (session.applied->head != scene.head || session.applied->subject != scene.subject ||
                       session.applied->ball_radius != scene.ball_radius);
@@ -246,16 +304,42 @@ int view_session_apply(view_session& session, hair_scene& scene, const std::stri
     fit(session, scene);
     if (is_first) session.applied = std::make_unique<hair_scene>();
     *session.applied = scene;
-    hair_motion_at(&scene.motion, (float)session.time, session.transform);
-    return hair_exit_for(set_colliders(session, scene));
+    hair_result result = view_session_pose(session, scene);
+    return hair_exit_for(result ? result : set_colliders(session, scene));
+}
+
+hair_result view_session_pose(view_session& session, const hair_scene& scene)
+{
+    hair_result result = find_pose(session, scene, session.character, session.transform);
+    std::fill(session.way, session.way + 3, 0.0f);
+    if (!result && session.character && scene.character.follow)
+        hair_character_way(session.character, (float)session.time, session.way);
+    return result;
+}
+
+hair_result view_session_attach(view_session& session, hair_instance* hair)
+{
+    return session.character ? hair_character_attach(session.character, hair) : HAIR_OK;
+}
+
+hair_scene view_session_seen(const view_session& session, const hair_scene& scene)
+{
+    hair_scene seen = scene;
+    for (int i = 0; i < 3; ++i) {
+        seen.eye[i] += session.way[i];
+        seen.target[i] += session.way[i];
+    }
+    return seen;
 }
 
 int view_session_step(view_session& session, const hair_scene& scene, float dt, bool plays)
 {
     float step = std::min(dt, longest_step);
     if (plays) session.time += step;
-    hair_motion_at(&scene.motion, (float)session.time, session.transform);
-    hair_result result = hair_set_transform(session.hair, session.transform);
+    hair_result result = view_session_pose(session, scene);
+    if (!result)
+        result = session.character ? hair_character_move(session.character, session.hair)
+                                   : hair_set_transform(session.hair, session.transform);
     if (!result) result = set_colliders(session, scene);
     if (!result)
         result =
@@ -286,15 +370,17 @@ int view_session_reset(view_session& session, const hair_scene& scene)
     session.time = 0;
     ++session.generation;
     session.pins.clear();
-    hair_motion_at(&scene.motion, 0, session.transform);
-    hair_result result = hair_teleport(session.hair, session.transform);
+    hair_result result = view_session_pose(session, scene);
+    if (!result) result = hair_teleport(session.hair, session.transform);
     hair_cuts_destroy(&session.pieces);
     if (!result && session.cut_strands)
         result = hair_set_lengths(session.hair, 0, session.info.guide_count, nullptr);
     if (!result) session.cut_strands = 0;
     if (!result) result = hair_reset(session.hair);
+    if (!result) result = view_session_attach(session, session.hair);
     if (!result && session.twin) result = hair_teleport(session.twin, session.transform);
     if (!result && session.twin) result = hair_reset(session.twin);
+    if (!result && session.twin) result = view_session_attach(session, session.twin);
     if (!result) result = set_colliders(session, scene);
     return hair_exit_for(result);
 }

@@ -24,6 +24,7 @@ struct view_session {
     hair_groom* groom = nullptr;
     hair_instance* hair = nullptr;
     hair_instance* twin = nullptr; // hair of motion_error.h, which moves alike
+    hair_character* character = nullptr; // null if the scene has none
     hair_world* world = nullptr;
     std::unique_ptr<hair_scene> world_scene; // scene that the world was made of
     hair_render* renders[VIEW_RENDERS] = {};
@@ -41,6 +42,7 @@ struct view_session {
     uint32_t cut_strands = 0; // strands that were cut since all were whole
     float reach = 1; // radius of the head's reach, m
     float transform[16] = {}; // of the head
+    float way[3] = {}; // of the camera that follows a character, m
     double time = 0; // of the motion, s
     uint32_t generation = 0; // number of times that the hair was put at rest
 };
@@ -54,6 +56,13 @@ void view_session_close(view_session& session);
 // Make the hair follow a scene. Only what differs is made anew. The camera of a scene without one
 // is set. On failure the hair keeps the scene that it had. Return an exit status.
 int view_session_apply(view_session& session, hair_scene& scene, const std::string& name);
+
+// Compute the pose of the head at the time of the session, and that of the character.
+hair_result view_session_pose(view_session& session, const hair_scene& scene);
+// Bind an instance to the character, if there is one, and put its hair at rest in the present pose.
+hair_result view_session_attach(view_session& session, hair_instance* hair);
+// Return the scene with the camera where it follows the character.
+hair_scene view_session_seen(const view_session& session, const hair_scene& scene);
 
 // Advance the hair by a time, in s. With `plays`, the head follows its motion.
 int view_session_step(view_session& session, const hair_scene& scene, float dt, bool plays);

@@ -9,8 +9,12 @@
 namespace
 {
 
-int make_mesh(hair_render* render, const hair_scene& scene)
+int make_mesh(const view_session& session, hair_render* render, const hair_scene& scene)
 {
+    if (session.character) {
+        hair_render_set_mesh(render, &session.character->mesh, true);
+        return HAIR_EXIT_OK;
+    }
     head_mesh mesh;
     bool ball = scene.subject == HAIR_SUBJECT_FUR;
     if (!scene.head && !ball) return HAIR_EXIT_OK;
@@ -35,7 +39,7 @@ int make_render(view_session& session, const hair_scene& scene, const hair_rende
     session.render_descs[which] = desc;
     int code = hair_render_create(TOOL, &desc, &render);
     session.render = render;
-    return code ? code : make_mesh(render, scene);
+    return code ? code : make_mesh(session, render, scene);
 }
 
 // Give the instance the look of a quality.
@@ -71,7 +75,7 @@ static int draw(view_session& session, const hair_scene& scene, uint32_t width, 
                 const view_quality& quality, view_render which, const float shift[2])
 {
     const hair_image* image;
-    hair_scene drawn = scene;
+    hair_scene drawn = view_session_seen(session, scene);
     drawn.width = std::max(1u, (uint32_t)lroundf((float)width * quality.resolution));
     drawn.height = std::max(1u, (uint32_t)lroundf((float)height * quality.resolution));
     reduce(quality, drawn);
@@ -85,6 +89,7 @@ static int draw(view_session& session, const hair_scene& scene, uint32_t width, 
     int code = make_render(session, scene, desc, which);
     if (!code) code = hair_exit_for(set_look(session, scene, quality));
     if (code) return code;
+    if (session.character) hair_render_move_mesh(session.render, &session.character->mesh);
     hair_render_set_shift(session.render, shift);
     hair_render_set_more_hair(session.render, session.pieces.at, session.pieces.count);
     return hair_render_frame(session.render, &drawn, session.transform, session.reach, session.hair, &image);

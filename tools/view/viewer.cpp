@@ -119,8 +119,10 @@ bool is_live(const viewer& viewer)
     return viewer.options.script.empty() || viewer.options.fps;
 }
 
-float duration(const hair_motion& motion)
+// Return the duration of the motion. The animation of a character repeats without an end.
+float duration(const view_session& session, const hair_motion& motion)
 {
+    if (session.character) return INFINITY;
     return motion.count ? motion.key[motion.count - 1].time : 0;
 }
 
@@ -128,7 +130,7 @@ int step(viewer& viewer, float dt)
 {
     view_session& session = viewer.session;
     const hair_scene& scene = *viewer.document.scene;
-    float end = duration(scene.motion);
+    float end = duration(session, scene.motion);
     if (viewer.pauses && !viewer.steps_once) return HAIR_EXIT_OK;
     if (viewer.steps_once) dt = script_dt;
     if (viewer.is_slow) dt *= slow_motion;
