@@ -202,6 +202,16 @@ static float uneven(hair_vec3 root, float height, uint32_t seed)
 
 // Styles ------------------------------------------------------------------------------------------
 
+// Bend hair into flat waves. Their phase changes over `apart` m of the scalp.
+static void add_wave(uint32_t guide, hair_vec3 root, uint32_t seed, float apart, struct hair_curl* wave,
+                     struct hair_style_path* path)
+{
+    wave->phase = 1.5f * PI * hair_noise(root, apart, seed + 2);
+    wave->flat = 0.5f;
+    wave->seed = hair_hash(guide ^ seed);
+    hair_style_path_add_curl(path, wave);
+}
+
 static void grow_long(uint32_t guide, hair_vec3 root, float scale, uint32_t seed,
                       struct hair_style_path* path)
 {
@@ -221,15 +231,9 @@ static void grow_long(uint32_t guide, hair_vec3 root, float scale, uint32_t seed
         .inward_below = 0,
     };
     run_cut(&walk, root, scale, 0.03f, path);
-    struct hair_curl wave = {.radius = 0.011f,
-                             .pitch = 0.105f,
-                             .start = 0.05f * scale,
-                             .full = 0.28f * scale,
-                             .phase = 1.5f * PI * hair_noise(root, 0.06f, seed + 2),
-                             .flat = 0.5f,
-                             .variation = 0.3f,
-                             .seed = hair_hash(guide ^ seed)};
-    hair_style_path_add_curl(path, &wave);
+    struct hair_curl wave = {
+        .radius = 0.011f, .pitch = 0.105f, .start = 0.05f * scale, .full = 0.28f * scale, .variation = 0.3f};
+    add_wave(guide, root, seed, 0.06f, &wave, path);
 }
 
 // Bend hair that is cut at the chin. Without a slight wave it is a curtain beside the temple.
@@ -240,11 +244,8 @@ static void add_slight_wave(uint32_t guide, hair_vec3 root, float scale, uint32_
                              .pitch = 0.085f,
                              .start = 0.025f * scale,
                              .full = 0.14f * scale,
-                             .phase = 1.5f * PI * hair_noise(root, 0.04f, seed + 2),
-                             .flat = 0.5f,
-                             .variation = 0.4f,
-                             .seed = hair_hash(guide ^ seed)};
-    hair_style_path_add_curl(path, &wave);
+                             .variation = 0.4f};
+    add_wave(guide, root, seed, 0.04f, &wave, path);
 }
 
 static void grow_bob(uint32_t guide, hair_vec3 root, float scale, uint32_t seed, struct hair_style_path* path)
