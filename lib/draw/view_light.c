@@ -44,8 +44,9 @@ static bool keeps_light(const struct hair_renderer* renderer, const struct hair_
     bool fits = age->interval > 1 && lod && self_shadow->texture &&
                 self_shadow->numbers == vertices * plan->light_values && age->lights == plan->light_values &&
                 hair_draw_estimate_fraction(renderer, lod) <= age->fraction;
+    if (!fits) return false;
     // Lights may change while hair is not stepped.
-    if (!fits || frames == 0) return fits && index && index == age->frame_index;
+    if (frames == 0) return index && index == age->frame_index;
     return frames < age->interval && (renderer->frame + age->turn) % age->interval != 0;
 }
 
