@@ -72,13 +72,7 @@ static int exit_for_settings(const struct capture* capture, int status)
 // an error.
 static bool pose_at(struct capture* capture, float time, float transform[16])
 {
-    if (!capture->character) {
-        hair_motion_at(&capture->options.scene.motion, time, transform);
-        return true;
-    }
-    if (!hair_character_pose(capture->character, time)) return false;
-    memcpy(transform, capture->character->transform, 16 * sizeof *transform);
-    return true;
+    return hair_character_pose_head(capture->character, &capture->options.scene.motion, time, transform);
 }
 
 // Making ------------------------------------------------------------------------------------------
@@ -89,9 +83,7 @@ static int make_character(struct capture* capture)
     int code = hair_character_create(TOOL, scene, &capture->character);
     if (code || !capture->character) return code;
     scene->head = false;
-    if (scene->settings.desc.solver != HAIR_SOLVER_REDBLACK) return HAIR_EXIT_OK;
-    hair_complain(TOOL, "the solver redblack knows no bodies that deform, which a character needs");
-    return HAIR_EXIT_USAGE;
+    return hair_character_check_solver(TOOL, scene);
 }
 
 // Create the body of the character, and bind the hair to it.

@@ -264,6 +264,25 @@ bool hair_character_pose(struct hair_character* character, float time)
     return true;
 }
 
+bool hair_character_pose_head(struct hair_character* character, const struct hair_motion* motion, float time,
+                              float transform[16])
+{
+    if (!character) {
+        hair_motion_at(motion, time, transform);
+        return true;
+    }
+    if (!hair_character_pose(character, time)) return false;
+    memcpy(transform, character->transform, 16 * sizeof *transform);
+    return true;
+}
+
+int hair_character_check_solver(const char* tool, const struct hair_scene* scene)
+{
+    if (!*scene->character.file || scene->settings.desc.solver != HAIR_SOLVER_REDBLACK) return HAIR_EXIT_OK;
+    hair_complain(tool, "the solver redblack knows no bodies that deform, which a character needs");
+    return HAIR_EXIT_USAGE;
+}
+
 void hair_character_way(const struct hair_character* character, float time, float out[3])
 {
     for (int k = 0; k < 3; ++k)

@@ -49,12 +49,19 @@ struct hair_character {
 // Read the character of a scene. Return an exit status, after printing any error. A scene without a
 // character gives NULL. Destroy the character with hair_character_destroy().
 int hair_character_create(const char* tool, const struct hair_scene* scene, struct hair_character** out);
+// Return an exit status for a scene whose solver knows no bodies that deform, after printing the
+// error. A scene without a character is accepted.
+int hair_character_check_solver(const char* tool, const struct hair_scene* scene);
 // Destroy a character. NULL is allowed. OpenGL is required if there is a body.
 void hair_character_destroy(struct hair_character* character);
 
 // Compute the mesh and the transform of the head at a time, in s. The animation repeats. Return
 // false after printing an error, if the pose is not finite.
 bool hair_character_pose(struct hair_character* character, float time);
+// Compute the transform of the head at a time, in s, by hair_character_pose(). Without a character
+// it is that of the motion.
+bool hair_character_pose_head(struct hair_character* character, const struct hair_motion* motion, float time,
+                              float transform[16]);
 // Compute the way of a camera that follows the character, in m.
 void hair_character_way(const struct hair_character* character, float time, float out[3]);
 // Compute bounds of hair and head in the world from the bounds of the groom.

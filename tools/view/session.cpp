@@ -112,27 +112,13 @@ void destroy_renders(view_session& session)
     session.render = nullptr;
 }
 
-// Compute the transform of the head at the time of the session. A character takes its pose.
-hair_result find_pose(const view_session& session, const hair_scene& scene, hair_character* character,
-                      float transform[16])
-{
-    float time = (float)session.time;
-    if (!character) {
-        hair_motion_at(&scene.motion, time, transform);
-        return HAIR_OK;
-    }
-    if (!hair_character_pose(character, time)) return HAIR_ERROR_FILE;
-    memcpy(transform, character->transform, 16 * sizeof *transform);
-    return HAIR_OK;
-}
-
 // Make the body of a character, unless there is one.
 hair_result create_body(view_session& session, hair_scene& scene, const hair_groom* groom,
                         hair_character& character)
 {
+    if (character.body) return HAIR_OK;
     float reach;
     measure(groom, scene, reach);
-    if (character.body) return HAIR_OK;
     return hair_character_create_body(&character, session.context, scene.motion.pivot, reach);
 }
 
@@ -145,7 +131,8 @@ hair_result create_hair(view_session& session, hair_scene& scene, hair_groom* gr
     desc.physics = &scene.settings.physics;
     desc.look = &scene.settings.look;
     hair_result result = character ? create_body(session, scene, groom, *character) : HAIR_OK;
-    if (!result) result = find_pose(session, scene, character, desc.transform);
+    if (!result && !hair_character_pose_head(character, &scene.motion, (float)session.time, desc.transform))
+        result = HAIR_ERROR_FILE;
     if (!result) result = hair_create(session.context, groom, &desc, out);
     if (!result) result = hair_groups_apply(*out, &scene.settings, nullptr);
     if (!result) result = hair_set_wind(*out, &wind);
@@ -231,17 +218,34 @@ int remake(view_session& session, hair_scene& scene, bool with_groom)
 {
     hair_groom* groom = session.groom;
     hair_character* character = session.character;
-    if (*scene.character.file && scene.settings.desc.solver == HAIR_SOLVER_REDBLACK) {
-        hair_complain(TOOL, "the solver redblack knows no bodies that deform, which a character needs");
-        return HAIR_EXIT_USAGE;
-    }
+    int code = hair_character_check_solver(TOOL, &scene);
+    if (code) return code;
     if (!with_groom) return replace_hair(session, scene, groom, character);
-    int code = hair_character_create(TOOL, &scene, &character);
+    code = hair_character_create(TOOL, &scene, &character);
     if (code) return code;
     code = hair_groom_source_load(TOOL, &session.host, &scene, character, &groom);
     if (!code) return replace_hair(session, scene, groom, character);
     hair_character_destroy(character);
     return code;
+}
+
+// Compute the pose of the head at the time of the session, and that of the character.
+hair_result pose(view_session& session, const hair_scene& scene)
+{
+    float time = (float)session.time;
+    std::fill(session.way, session.way + 3, 0.0f);
+    if (!hair_character_pose_head(session.character, &scene.motion, time, session.transform))
+        return HAIR_ERROR_FILE;
+    if (session.character && scene.character.follow) hair_character_way(session.character, time, session.way);
+    return HAIR_OK;
+}
+
+// Put the hair of an instance at rest in the present pose.
+hair_result begin_again(view_session& session, hair_instance* hair)
+{
+    hair_result result = hair_teleport(hair, session.transform);
+    if (result) return result;
+    return session.character ? hair_character_attach(session.character, hair) : hair_reset(hair);
 }
 
 // Step the second head, which moves and is held like the first.
@@ -304,22 +308,8 @@ int view_session_apply(view_session& session, hair_scene& scene, const std::stri
     fit(session, scene);
     if (is_first) session.applied = std::make_unique<hair_scene>();
     *session.applied = scene;
-    hair_result result = view_session_pose(session, scene);
+    hair_result result = pose(session, scene);
     return hair_exit_for(result ? result : set_colliders(session, scene));
-}
-
-hair_result view_session_pose(view_session& session, const hair_scene& scene)
-{
-    hair_result result = find_pose(session, scene, session.character, session.transform);
-    std::fill(session.way, session.way + 3, 0.0f);
-    if (!result && session.character && scene.character.follow)
-        hair_character_way(session.character, (float)session.time, session.way);
-    return result;
-}
-
-hair_result view_session_attach(view_session& session, hair_instance* hair)
-{
-    return session.character ? hair_character_attach(session.character, hair) : HAIR_OK;
 }
 
 hair_scene view_session_seen(const view_session& session, const hair_scene& scene)
@@ -336,7 +326,7 @@ int view_session_step(view_session& session, const hair_scene& scene, float dt, 
 {
     float step = std::min(dt, longest_step);
     if (plays) session.time += step;
-    hair_result result = view_session_pose(session, scene);
+    hair_result result = pose(session, scene);
     if (!result)
         result = session.character ? hair_character_move(session.character, session.hair)
                                    : hair_set_transform(session.hair, session.transform);
@@ -370,17 +360,13 @@ int view_session_reset(view_session& session, const hair_scene& scene)
     session.time = 0;
     ++session.generation;
     session.pins.clear();
-    hair_result result = view_session_pose(session, scene);
-    if (!result) result = hair_teleport(session.hair, session.transform);
+    hair_result result = pose(session, scene);
     hair_cuts_destroy(&session.pieces);
     if (!result && session.cut_strands)
         result = hair_set_lengths(session.hair, 0, session.info.guide_count, nullptr);
     if (!result) session.cut_strands = 0;
-    if (!result) result = hair_reset(session.hair);
-    if (!result) result = view_session_attach(session, session.hair);
-    if (!result && session.twin) result = hair_teleport(session.twin, session.transform);
-    if (!result && session.twin) result = hair_reset(session.twin);
-    if (!result && session.twin) result = view_session_attach(session, session.twin);
+    if (!result) result = begin_again(session, session.hair);
+    if (!result && session.twin) result = begin_again(session, session.twin);
     if (!result) result = set_colliders(session, scene);
     return hair_exit_for(result);
 }

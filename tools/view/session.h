@@ -57,10 +57,6 @@ void view_session_close(view_session& session);
 // is set. On failure the hair keeps the scene that it had. Return an exit status.
 int view_session_apply(view_session& session, hair_scene& scene, const std::string& name);
 
-// Compute the pose of the head at the time of the session, and that of the character.
-hair_result view_session_pose(view_session& session, const hair_scene& scene);
-// Bind an instance to the character, if there is one, and put its hair at rest in the present pose.
-hair_result view_session_attach(view_session& session, hair_instance* hair);
 // Return the scene with the camera where it follows the character.
 hair_scene view_session_seen(const view_session& session, const hair_scene& scene);
 
