@@ -111,7 +111,8 @@ typedef enum hair_slice {
 /// Lines have no width, so they cover less. HAIR_SELF_SHADOW_STRANDS computes the light of drawn
 /// strands only.
 ///
-/// Small hair does not get new light in every frame, by light_pixels.
+/// Small hair does not get new light in every frame, by light_pixels, and need not move in every
+/// frame, by motion_pixels.
 ///
 /// With per_patch, two more details depend on the size on the screen. Cells of
 /// HAIR_SELF_SHADOW_STRANDS are at least 1 pixel large. Followers are pushed out of colliders only
@@ -146,6 +147,19 @@ typedef struct hair_lod {
     /// every fourth. A frame is a step of the instance. Instances at different positions take
     /// turns. This is the light of HAIR_SELF_SHADOW_STRANDS. 0 computes it in every frame.
     float light_pixels; ///< Pixels. [0, 10000]. Default 128.
+    /// Size of hair at rest on the screen up to which only every second hair_step() moves it. With
+    /// half of the size it is every third, and with a third of it every fourth, by turns as above.
+    /// That step advances by the time of all, with substeps that are longer by as much, see
+    /// hair_physics.substep_rate. Between, hair follows the head rigidly, and
+    /// HAIR_RENDER_PATH_COMPUTE draws the vertices of the frame before, moved with the head.
+    ///
+    /// Motion then depends on views. A view that cannot draw those vertices steps the hair first:
+    /// another path or pass, one with a shader, motion vectors or occlusion culling, or from
+    /// another side. So does a call that reads the hair. The largest hair of all views in colour
+    /// counts. Hair with pins, targets, a skinned scalp, a free root or recorded contacts is
+    /// stepped in every frame, and so is that of HAIR_SOLVER_REDBLACK. 0 steps all hair in every
+    /// frame.
+    float motion_pixels; ///< Pixels. [0, 10000]. Default 0.
 } hair_lod;
 HAIR_DESC(hair_lod)
 

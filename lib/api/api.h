@@ -71,6 +71,14 @@ struct hair_field_detail {
     uint32_t spare_views; // number of views in sequence that need fewer voxels
 };
 
+// Frames in which an instance is stepped.
+struct hair_pace {
+    uint32_t interval; // Number of frames from one step to the next. 0 or 1 steps in each.
+    uint32_t wanted; // Minimum interval that views want since the last step. 0 without views.
+    double pending; // Time that the next step advances by in addition to its own, s.
+    struct hair_pose head; // Head at the end of `pending`.
+};
+
 struct hair_instance {
     struct hair_context_member member;
     hair_context* context;
@@ -96,6 +104,7 @@ struct hair_instance {
     struct hair_gl_owner memory; // memory of buffers and textures by category
     struct hair_frame_requests requests[HAIR_GL_FRAMES]; // per frame of the ledger
     struct hair_budget_part budget; // of the budget of the context
+    struct hair_pace pace;
     bool is_listed; // true while a list that has the instance is checked
 };
 
@@ -152,6 +161,9 @@ hair_result hair_copy_attributes(const hair_host* host, hair_groom_desc* desc,
 
 // Log how guides are softened, if this differs from the last log.
 void hair_tell_softened(hair_instance* hair);
+// Advance instances of a context by their pending time. Return the first failure. Instances that
+// fail keep their pending time.
+hair_result hair_catch_up(hair_instance* const* list, uint32_t count);
 // Check that a list has instances of one context, each once.
 hair_result hair_check_list(hair_instance* const* list, uint32_t count);
 
@@ -174,6 +186,18 @@ float* hair_copy_positions(const hair_instance* hair, const char* what, const fl
 hair_result hair_check_position_buffer(const hair_context* context, const char* label, const char* what,
                                        uint32_t buffer, size_t offset, size_t stride, uint32_t count,
                                        size_t* from, size_t* size);
+
+// Functions of pace.c.
+
+// Return for how many frames hair of a size in pixels keeps what is kept for two frames up to the
+// size `limit`.
+uint32_t hair_find_interval(float limit, float pixels);
+// Note the size of hair in a view in colour. NULL `lod` wants a step in every frame.
+void hair_pace_note(hair_instance* hair, const hair_lod* lod, float pixels);
+// Let the next step wait if its turn has not come. Return false if the step is due.
+bool hair_pace_wait(hair_instance* hair, double time);
+// Return the pose of the head with which hair is drawn.
+const struct hair_pose* hair_shown_head(const hair_instance* hair);
 
 // A view of the application, and the structs that it points to, checked and copied.
 struct hair_view_copy {

@@ -41,6 +41,7 @@ hair_result hair_get_buffers(hair_instance* hair, hair_read_source source, hair_
     HAIR_TRY(HAIR_COPY_IN(host, hair_buffers, out, &wanted));
     HAIR_TRY(check_request(hair, source, &wanted));
     HAIR_TRY(hair_check_current(hair->context));
+    HAIR_TRY(hair_catch_up(&hair, 1));
     own.attributes = wanted.attributes;
     own.frame_index = wanted.frame_index;
     own.prev_rotation[3] = 1;

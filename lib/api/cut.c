@@ -266,6 +266,7 @@ hair_result hair_cut(hair_instance* hair, const hair_cut_desc* cut, hair_cut_inf
     if (info) HAIR_TRY(hair_check_header(host, "hair_cut_info", info->header));
     HAIR_TRY(check_cut(hair, &own));
     HAIR_TRY(check_changes(hair));
+    HAIR_TRY(hair_catch_up(&hair, 1));
     struct cut work = {.hair = hair, .desc = &own, .info = hair_cut_info_default()};
     hair_result result = cut_strands(&work, pieces);
     hair_free(host, work.states);

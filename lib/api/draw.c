@@ -3,8 +3,6 @@
 
 #include <math.h>
 
-#define MAX_LIGHT_INTERVAL 4 // Frames that the light of small hair is kept at most.
-
 // Check the framebuffer. Drawing into an incomplete one would raise the application's error flag
 // and draw nothing.
 static hair_result check_framebuffer(const hair_instance* hair)
@@ -76,7 +74,7 @@ static int is_out_of_view(const hair_instance* hair, const hair_view* view)
 {
     if (is_of_surroundings(view) || hair_draw_has_motion(view)) return 0;
     return hair_sim_has_attached_strands(&hair->sim) &&
-           hair_draw_is_out_of_view(&hair->renderer, &hair->sim.head_at_last_step, view);
+           hair_draw_is_out_of_view(&hair->renderer, hair_shown_head(hair), view);
 }
 
 // Record the request of a view. Return whether it is to be drawn.
@@ -107,13 +105,15 @@ static hair_result draw_surroundings(hair_instance* hair, const hair_view* view)
     return view->pass == HAIR_PASS_COLLIDERS ? draw_colliders(hair, view) : draw_air(hair, view);
 }
 
-// Return for how many frames the light of hair may be kept. `scale` is in pixels per metre.
-static uint32_t find_light_interval(const hair_instance* hair, const hair_lod* lod, float scale)
+// Let the light of small hair be kept, and let it be stepped in some frames only. `scale` is in
+// pixels per metre.
+static void note_intervals(hair_instance* hair, const hair_lod* lod, float scale)
 {
     const hair_vec3 size = hair->renderer.rest_size;
     float pixels = scale * fmaxf(size.x, fmaxf(size.y, size.z));
-    float by_size = 1 + floorf(lod->light_pixels / fmaxf(pixels, 1));
-    return (uint32_t)fminf(fmaxf(by_size, 1 / hair->sim.rate_factor), MAX_LIGHT_INTERVAL);
+    float light_pixels = fmaxf(lod->light_pixels, pixels * (1 / hair->sim.rate_factor - 1));
+    hair->renderer.light_age.interval = hair_find_interval(light_pixels, pixels);
+    hair_pace_note(hair, lod, pixels);
 }
 
 // Note how large hair is in a view, and what the view would need to give up nothing.
@@ -122,12 +122,14 @@ static void note_size(hair_instance* hair, const struct hair_view_copy* copy)
     const hair_view* view = &copy->view;
     struct hair_budget* budget = &hair->context->budget;
     hair->renderer.sample_divisor = budget->ms > 0 ? budget->sample_divisor : 1;
+    bool is_main = view->pass == HAIR_PASS_COLOR || view->pass == HAIR_PASS_MOTION;
+    if (is_main && !view->lod) hair_pace_note(hair, NULL, 0);
     if (!budget->ms && !view->lod) return;
     budget->has_drawn |= budget->ms > 0;
-    if (view->pass != HAIR_PASS_COLOR && view->pass != HAIR_PASS_MOTION) return;
-    const struct hair_pose* head = &hair->sim.head_at_last_step;
+    if (!is_main) return;
+    const struct hair_pose* head = hair_shown_head(hair);
     float scale = hair_draw_pixels_per_metre(&hair->renderer, head, view);
-    if (view->lod) hair->renderer.light_age.interval = find_light_interval(hair, view->lod, scale);
+    if (view->lod) note_intervals(hair, view->lod, scale);
     if (!budget->ms) return;
     hair->budget.pixels = fmaxf(hair->budget.pixels, 2 * hair->renderer.reach.w * scale);
     if (!copy->has_lod) hair_budget_note(budget, hair_draw_full_importance(&hair->renderer, scale));
@@ -142,11 +144,12 @@ static hair_result prepare_draw(hair_instance* hair, struct hair_draw_plan* plan
     hair_draw_free_unused(&hair->renderer, hair->profiler.number);
     hair_geometry_ensure_guides(&hair->geometry, &hair->sim);
     hair_draw_select_lod(&hair->renderer, head, plan);
-    if (view->pass != HAIR_PASS_GUIDES && hair_geometry_shows_followers(&hair->geometry))
+    bool is_new = view->pass != HAIR_PASS_GUIDES && !plan->keeps_vertices;
+    if (is_new && hair_geometry_shows_followers(&hair->geometry))
         result = hair_update_follower_collision(hair);
     update_attachment(hair);
     if (!result) result = hair_draw_prepare(&hair->renderer, head, plan);
-    if (result == HAIR_ERROR_MEMORY && hair_draw_avoid_cache(&hair->renderer, plan)) {
+    if (result == HAIR_ERROR_MEMORY && is_new && hair_draw_avoid_cache(&hair->renderer, plan)) {
         hair_make_plan(hair, view, plan);
         hair_draw_select_lod(&hair->renderer, head, plan);
         result = hair_draw_prepare(&hair->renderer, head, plan);
@@ -165,6 +168,30 @@ static hair_result check_view(hair_instance* hair, const hair_view* view, struct
     return result ? hair_check_lost(hair->context, result) : HAIR_OK;
 }
 
+// Let plans of instances with pending time draw the vertices of an earlier frame. Step those that
+// cannot, which changes their plans. Return the first failure.
+static hair_result settle(hair_instance* const* list, struct hair_draw_plan* plans, uint32_t count)
+{
+    hair_instance* late[HAIR_GL_STREAMS];
+    const hair_view* view = plans[0].view;
+    uint32_t late_count = 0;
+    HAIR_ASSERT(0 < count && count <= HAIR_GL_STREAMS);
+    if (is_of_surroundings(view)) return HAIR_OK;
+    for (uint32_t i = 0; i < count; ++i) {
+        hair_instance* hair = list[i];
+        if (hair->pace.pending == 0) continue;
+        if (hair->geometry.smooth.done &&
+            hair_draw_keep_vertices(&hair->renderer, &hair->sim.head_at_last_step, &hair->pace.head,
+                                    &plans[i]))
+            continue;
+        late[late_count++] = hair;
+    }
+    hair_result result = late_count ? hair_catch_up(late, late_count) : HAIR_OK;
+    for (uint32_t i = 0; i < count && late_count; ++i)
+        if (!plans[i].keeps_vertices) hair_make_plan(list[i], view, &plans[i]);
+    return result;
+}
+
 hair_result hair_draw(hair_instance* hair, const hair_view* view)
 {
     HAIR_TRY(hair_check_instance(hair));
@@ -174,8 +201,9 @@ hair_result hair_draw(hair_instance* hair, const hair_view* view)
     hair_make_plan(hair, &own.view, &plan);
     if (!is_to_be_drawn(hair, &plan)) return HAIR_OK;
     note_size(hair, &own);
+    hair_result result = settle(&hair, &plan, 1);
+    if (result) return result;
     hair_enter_frame(hair);
-    hair_result result;
     if (is_of_surroundings(&own.view)) {
         hair_draw_free_unused(&hair->renderer, hair->profiler.number);
         result = draw_surroundings(hair, &own.view);
@@ -246,6 +274,7 @@ static hair_result draw_all(struct draw_batch* batch, const struct hair_view_cop
         batch->of[batch->drawn++] = batch->hair[i];
     }
     if (!batch->drawn) return HAIR_OK;
+    first = settle(batch->of, batch->plan, batch->drawn);
     hair_enter_frame(batch->of[0]);
     bool has_strands = !is_of_surroundings(view) && view->pass != HAIR_PASS_GUIDES;
     if (has_strands && batch->drawn > 1 && hair_gl_begin_recording(gl, batch->drawn))

@@ -198,6 +198,7 @@ hair_result hair_set_group_look(hair_instance* hair, uint32_t group, const hair_
         looks[g] = hair->group_looks ? hair->group_looks[g] : hair_group_look_default();
     looks[group] = own;
     hair_enter_unprofiled(hair);
+    hair_draw_forget_vertices(&hair->renderer);
     return hair_leave(hair->context, hair_instance_set_group_looks(hair, looks));
 }
 

@@ -1,4 +1,4 @@
-// instance.c - public calls that create, move and step one head of living hair.
+// instance.c - public calls that create one head of living hair, move it and set what it is like.
 #include "lib/api/api.h"
 #include "lib/base/crc.h"
 
@@ -190,6 +190,7 @@ hair_result hair_set_look(hair_instance* hair, const hair_look* look)
     HAIR_TRY(HAIR_COPY_IN(&hair->context->host, hair_look, look, &own));
     hair->look = own;
     own = wetted(&own);
+    if (memcmp(&own, &hair->geometry.look, sizeof own) != 0) hair_draw_forget_vertices(&hair->renderer);
     hair_geometry_set_look(&hair->geometry, &own);
     return HAIR_OK;
 }
@@ -234,31 +235,4 @@ hair_result hair_set_colliders(hair_instance* hair, const hair_collider* collide
             hair->label, count, contacts, HAIR_STEP_COLLIDERS);
     }
     return result;
-}
-
-hair_result hair_reset(hair_instance* hair)
-{
-    HAIR_TRY(hair_check_instance(hair));
-    HAIR_TRY(hair_check_current(hair->context));
-    hair_enter(hair);
-    hair_sim_reset(&hair->sim);
-    hair_geometry_invalidate_guides(&hair->geometry);
-    hair_geometry_forget_history(&hair->geometry);
-    return hair_leave(hair->context, HAIR_OK);
-}
-
-hair_result hair_teleport(hair_instance* hair, const float transform[16])
-{
-    HAIR_TRY(hair_check_instance(hair));
-    struct hair_pose pose;
-    HAIR_TRY(hair_check_transform(hair, "transform", transform, &pose));
-    HAIR_TRY(hair_check_current(hair->context));
-    hair_enter(hair);
-    struct hair_pose was = hair->sim.head_at_last_step;
-    hair_result result = hair_sim_teleport(&hair->sim, &pose);
-    if (!result) {
-        hair_geometry_teleport_history(&hair->geometry, &was, &pose);
-        hair_geometry_invalidate_guides(&hair->geometry);
-    }
-    return hair_leave(hair->context, result);
 }

@@ -15,6 +15,7 @@ hair_result hair_save(hair_instance* hair, void* bytes, size_t capacity, size_t*
     if (capacity < *size)
         return hair_fail(host, HAIR_ERROR_ARGUMENT, "%s: capacity is %zu, less than the state's %zu bytes",
                          hair->label, capacity, *size);
+    HAIR_TRY(hair_catch_up(&hair, 1));
     hair_sim_save(&hair->sim, bytes);
     return hair_check_lost(hair->context, HAIR_OK);
 }
@@ -28,6 +29,7 @@ hair_result hair_load(hair_instance* hair, const void* bytes, size_t size)
     hair_enter_unprofiled(hair);
     hair_result result = hair_sim_load(&hair->sim, bytes, size);
     if (!result) {
+        hair->pace.pending = 0;
         hair_geometry_invalidate_guides(&hair->geometry);
         hair_geometry_forget_history(&hair->geometry);
     }

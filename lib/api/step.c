@@ -1,4 +1,4 @@
-// step.c - public calls that step one instance or many.
+// step.c - public calls that step one instance or many, reset and teleport.
 #include "lib/api/api.h"
 
 // Return the time that a step advances by `dt`.
@@ -19,10 +19,15 @@ static hair_result check_dt(const hair_instance* hair, float dt)
                      (double)dt);
 }
 
+static bool may_sleep(const hair_instance* hair)
+{
+    return hair->pace.pending == 0 && hair_sleep_through(&hair->sim);
+}
+
 // Pass the time of a step in which hair is asleep. Return false if the hair is awake.
 static bool sleep_through(hair_instance* hair, double time)
 {
-    if (!hair_sleep_through(&hair->sim)) return false;
+    if (!may_sleep(hair)) return false;
     hair_sim_pass_time(&hair->sim, time);
     hair_begin_frame(hair);
     hair_current_requests(hair)->asleep = 1;
@@ -76,15 +81,21 @@ static void follow_budget(hair_instance* hair)
     *part = (struct hair_budget_part){.stepped = budget->timer.number};
 }
 
-// Step an instance with the context entered.
+// Step an instance with the context entered. A time of 0 advances by the pending time alone.
 static hair_result step(hair_instance* hair, double time)
 {
+    const struct hair_pose next = hair->sim.head;
     hair_result result = HAIR_OK;
-    hair_begin_frame(hair);
+    if (time > 0)
+        hair_begin_frame(hair);
+    else
+        hair->sim.head = hair->pace.head;
     // The field is that at the end of the step, because it moves along with the head.
     if (hair_wind_coupling_is_on(&hair->sim)) result = hair_update_field_at(hair, &hair->sim.head);
-    if (!result) result = hair_sim_step(&hair->sim, time);
+    if (!result) result = hair_sim_step(&hair->sim, time + hair->pace.pending);
+    hair->sim.head = next;
     if (result) return result;
+    hair->pace.pending = 0;
     hair_tell_softened(hair);
     hair_geometry_invalidate_guides(&hair->geometry);
     hair_draw_free_unused(&hair->renderer, hair->profiler.number);
@@ -96,14 +107,14 @@ hair_result hair_step(hair_instance* hair, float dt)
     HAIR_TRY(hair_check_instance(hair));
     hair_context* context = hair->context;
     HAIR_TRY(check_dt(hair, dt));
-    bool sleeps = hair_sleep_through(&hair->sim); // Sleeping hair needs no OpenGL.
+    bool sleeps = may_sleep(hair); // Sleeping hair needs no OpenGL.
     if (dt > 0 && (!sleeps || context->gl.is_lost)) HAIR_TRY(hair_check_current(context));
     follow_budget(hair);
     if (dt == 0) return HAIR_OK;
     double time = bound_time(hair, (double)dt);
     struct undo was = begin_undo(hair);
     hair_sim_set_unseen_time(&hair->sim, was.unseen + time);
-    if (sleep_through(hair, time)) return HAIR_OK;
+    if (sleep_through(hair, time) || hair_pace_wait(hair, time)) return HAIR_OK;
     hair_result result = sleeps ? hair_check_current(context) : HAIR_OK;
     if (!result) result = check_feedback(hair);
     if (!result) {
@@ -139,7 +150,7 @@ hair_result hair_check_list(hair_instance* const* list, uint32_t count)
 // Instances of a list that are awake, and are stepped side by side.
 struct step_batch {
     hair_instance* hair[HAIR_GL_STREAMS];
-    double time[HAIR_GL_STREAMS];
+    double time[HAIR_GL_STREAMS]; // 0 for the pending time alone.
     uint32_t count;
 };
 
@@ -175,12 +186,13 @@ static hair_result step_all(hair_context* context, struct step_batch* batch)
     return hair_leave_frame(context, first);
 }
 
-// Pass the time of an instance that is asleep. Return false if the instance is awake.
-static bool sleeps_in_list(hair_instance* hair, double time)
+// Pass the time of an instance that is asleep, or whose step waits. Return false if the instance is
+// to be stepped.
+static bool passes_time(hair_instance* hair, double time)
 {
     double unseen = hair->sim.unseen;
     hair_sim_set_unseen_time(&hair->sim, unseen + time);
-    if (sleep_through(hair, time)) return true;
+    if (sleep_through(hair, time) || hair_pace_wait(hair, time)) return true;
     hair_sim_set_unseen_time(&hair->sim, unseen);
     return false;
 }
@@ -192,7 +204,7 @@ hair_result hair_step_list(hair_instance* const* list, uint32_t count, float dt)
     hair_context* context = list[0]->context;
     HAIR_TRY(check_dt(list[0], dt));
     bool all_sleep = true;
-    for (uint32_t i = 0; i < count; ++i) all_sleep &= hair_sleep_through(&list[i]->sim);
+    for (uint32_t i = 0; i < count; ++i) all_sleep &= may_sleep(list[i]);
     if (dt > 0 && (!all_sleep || context->gl.is_lost)) HAIR_TRY(hair_check_current(context));
     for (uint32_t i = 0; i < count; ++i) follow_budget(list[i]);
     if (dt == 0) return HAIR_OK;
@@ -200,7 +212,7 @@ hair_result hair_step_list(hair_instance* const* list, uint32_t count, float dt)
     hair_result first = HAIR_OK, result;
     for (uint32_t i = 0; i < count; ++i) {
         double time = bound_time(list[i], (double)dt);
-        if (sleeps_in_list(list[i], time)) continue;
+        if (passes_time(list[i], time)) continue;
         batch.hair[batch.count] = list[i];
         batch.time[batch.count++] = time;
         if (batch.count < HAIR_GL_STREAMS) continue;
@@ -210,4 +222,49 @@ hair_result hair_step_list(hair_instance* const* list, uint32_t count, float dt)
     }
     result = step_all(context, &batch);
     return result == HAIR_ERROR_CONTEXT_LOST || !first ? result : first;
+}
+
+hair_result hair_catch_up(hair_instance* const* list, uint32_t count)
+{
+    struct step_batch batch = {.count = 0};
+    hair_result first = HAIR_OK;
+    for (uint32_t i = 0; i <= count; ++i) {
+        if (i < count && list[i]->pace.pending > 0) {
+            batch.time[batch.count] = 0;
+            batch.hair[batch.count++] = list[i];
+        }
+        if (batch.count < HAIR_GL_STREAMS && i < count) continue;
+        hair_result result = step_all(list[0]->context, &batch);
+        if (!first || result == HAIR_ERROR_CONTEXT_LOST) first = result;
+    }
+    return first;
+}
+
+hair_result hair_reset(hair_instance* hair)
+{
+    HAIR_TRY(hair_check_instance(hair));
+    HAIR_TRY(hair_check_current(hair->context));
+    hair_enter(hair);
+    hair->pace.pending = 0;
+    hair_sim_reset(&hair->sim);
+    hair_geometry_invalidate_guides(&hair->geometry);
+    hair_geometry_forget_history(&hair->geometry);
+    return hair_leave(hair->context, HAIR_OK);
+}
+
+hair_result hair_teleport(hair_instance* hair, const float transform[16])
+{
+    HAIR_TRY(hair_check_instance(hair));
+    struct hair_pose pose;
+    HAIR_TRY(hair_check_transform(hair, "transform", transform, &pose));
+    HAIR_TRY(hair_check_current(hair->context));
+    HAIR_TRY(hair_catch_up(&hair, 1));
+    hair_enter(hair);
+    struct hair_pose was = hair->sim.head_at_last_step;
+    hair_result result = hair_sim_teleport(&hair->sim, &pose);
+    if (!result) {
+        hair_geometry_teleport_history(&hair->geometry, &was, &pose);
+        hair_geometry_invalidate_guides(&hair->geometry);
+    }
+    return hair_leave(hair->context, result);
 }

@@ -140,6 +140,7 @@ hair_result hair_read_positions(hair_instance* hair, hair_read_source what, floa
     uint32_t number = *count < capacity ? *count : capacity;
     HAIR_ASSERT(number <= *count);
     if (number == 0) return HAIR_OK;
+    HAIR_TRY(hair_catch_up(&hair, 1));
     hair_sim_set_unseen_time(&hair->sim, 0);
     if (what == HAIR_READ_FOLLOWERS) return read_followers(hair, number, positions);
     if (what == HAIR_READ_SMOOTH) return read_smooth(hair, number, positions);

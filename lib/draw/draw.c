@@ -70,7 +70,7 @@ static void prepare_vertices(struct hair_renderer* renderer, struct hair_draw_pl
         hair_draw_cull_occluded(renderer, plan);
         hair_geometry_bind_group_looks(renderer->geometry);
     }
-    if (plan->has_strand_list) hair_draw_update_strand_list(renderer, plan, params);
+    if (plan->has_strand_list && !plan->keeps_vertices) hair_draw_update_strand_list(renderer, plan, params);
     if (plan->vertices == HAIR_VERTICES_CACHED) hair_geometry_bind_vertex_cache(renderer->geometry);
     if (plan->shade) hair_draw_write_vertices(renderer, plan, params);
     if (plan->is_computed) hair_draw_rasterise(renderer, plan);

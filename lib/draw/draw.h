@@ -47,6 +47,7 @@ enum hair_draw_resource {
 // Light of vertices that was computed last, which later frames may use.
 struct hair_light_age {
     uint32_t interval; // Number of frames for which light is kept. 0 or 1 computes it in each.
+    uint32_t pace; // Number of frames from one step to the next. 0 or 1 steps in each.
     uint32_t turn; // Number that lets instances compute their light in different frames.
     uint32_t frame; // Frame of the light.
     uint32_t frame_index; // hair_view.frame_index of the view whose light was computed.
@@ -183,6 +184,14 @@ bool hair_draw_is_out_of_view(const struct hair_renderer* renderer, const struct
 
 // Bind the textures that the passes of a plan have in common.
 void hair_draw_bind_plan(struct hair_renderer* renderer, const struct hair_draw_plan* plan);
+// Let a plan draw the vertices that the view cache has, if hair has not moved against the head
+// since, and only the camera differs a little. The head was at `from` then, where
+// hair_draw_prepare() needs it, and is at `to`. Return false if hair must be stepped first. Defined
+// in kept_vertices.c.
+bool hair_draw_keep_vertices(struct hair_renderer* renderer, const struct hair_pose* from,
+                             const struct hair_pose* to, struct hair_draw_plan* plan);
+// Draw no vertices of earlier frames, because the look of the hair has changed.
+void hair_draw_forget_vertices(struct hair_renderer* renderer);
 // Run all passes of a plan before the one that draws, with the head's origin at `head`. The view
 // must be validated. `head` must be valid until hair_draw_finish().
 hair_result hair_draw_prepare(struct hair_renderer* renderer, const struct hair_pose* head,

@@ -43,6 +43,10 @@ struct hair_draw_plan {
     bool has_motion_output; // Motion vectors are a second output, beside colour.
     struct hair_depth_test depth_test; // The test that computed opacity makes.
     uint32_t light_values; // Number of light values per vertex. 0 without self-shadowing.
+    // The view cache keeps the vertices of an earlier frame. `view` is then `moved_view`, the view
+    // from the head of that frame.
+    bool keeps_vertices;
+    hair_view moved_view;
 
     // Written by hair_draw_prepare().
     const struct hair_pose* head;

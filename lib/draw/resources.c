@@ -118,6 +118,14 @@ hair_result hair_draw_ensure_textures(struct hair_renderer* renderer, struct hai
     return ensure_fibres(renderer, plan);
 }
 
+// Return whether a resource has what an earlier frame wrote, for a plan that keeps vertices.
+static bool is_kept(const struct hair_draw_plan* plan, int resource)
+{
+    return plan->keeps_vertices &&
+           (resource == HAIR_RESOURCE_STRAND_LIST || resource == HAIR_RESOURCE_VIEW_CACHE ||
+            resource == HAIR_RESOURCE_SELF_SHADOW);
+}
+
 // Find the resources that a plan needs.
 static void find_needed(const struct hair_renderer* renderer, const struct hair_draw_plan* plan,
                         bool needed[HAIR_RESOURCES])
@@ -147,7 +155,7 @@ hair_result hair_draw_ensure_resources(struct hair_renderer* renderer, struct ha
     for (int i = 0; i < HAIR_RESOURCES && !result; ++i) {
         if (!needed[i]) continue;
         renderer->last_used[i] = renderer->frame;
-        result = resources[i].ensure(renderer, plan);
+        if (!is_kept(plan, i)) result = resources[i].ensure(renderer, plan);
     }
     return result;
 }

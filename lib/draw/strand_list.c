@@ -150,6 +150,7 @@ void hair_draw_update_strand_list(struct hair_renderer* renderer, const struct h
     struct hair_strand_list_key of = list_key(renderer, params);
     hair_gl_pass with = plan->has_occlusion ? HAIR_GL_WITH(OCCLUSION) : 0;
     if (!plan->has_occlusion && memcmp(&of, strand_list->key, sizeof of) == 0) return;
+    renderer->view_cache.is_complete = false;
     hair_gl_bind_buffers(gl, GL_SHADER_STORAGE_BUFFER, HAIR_BIND_START, 3, buffers);
     hair_gl_run(gl, HAIR_GL_SCAN_STRANDS | with, 1);
     hair_gl_run(gl, HAIR_GL_COMPACT_STRANDS | with, renderer->geometry->patches);

@@ -73,9 +73,20 @@ void hair_draw_free_view_cache(struct hair_renderer* renderer)
     struct hair_view_cache* own = &renderer->view_cache;
     for (int i = 0; i < HAIR_VIEW_CACHE_PARTS; ++i) free_part(renderer, i);
     own->room = own->spare = own->segments = 0;
+    own->is_complete = false;
 }
 
-// Write and shade the vertices of the listed strands, and bind them in place of the vertex cache.
+// Bind the vertices of the listed strands in place of the vertex cache.
+static void bind_listed_vertices(struct hair_renderer* renderer)
+{
+    static const hair_uint unit[HAIR_VIEW_CACHE_PARTS] = {HAIR_UNIT_CACHED_POSITION, HAIR_UNIT_CACHED_TANGENT,
+                                                          HAIR_UNIT_SHADED};
+    const struct hair_view_cache* view_cache = &renderer->view_cache;
+    for (int i = 0; i < HAIR_VIEW_CACHE_PARTS; ++i)
+        if (view_cache->texture[i]) hair_gl_bind_texture(renderer->gl, unit[i], view_cache->texture[i]);
+}
+
+// Write and shade the vertices of the listed strands.
 static void write_listed_vertices(struct hair_renderer* renderer, const struct hair_draw_plan* plan)
 {
     struct hair_gl* gl = renderer->gl;
@@ -91,11 +102,9 @@ static void write_listed_vertices(struct hair_renderer* renderer, const struct h
     // glBindBufferBase, which also clears the application's generic binding.
     hair_gl_bind_buffers(gl, GL_SHADER_STORAGE_BUFFER, HAIR_BIND_CACHED_POSITION, HAIR_VIEW_CACHE_PARTS,
                          NULL);
-    hair_gl_bind_texture(gl, HAIR_UNIT_CACHED_POSITION, view_cache->texture[HAIR_VIEW_CACHE_POSITION]);
-    if (view_cache->texture[HAIR_VIEW_CACHE_TANGENT])
-        hair_gl_bind_texture(gl, HAIR_UNIT_CACHED_TANGENT, view_cache->texture[HAIR_VIEW_CACHE_TANGENT]);
-    if (view_cache->texture[HAIR_VIEW_CACHE_SHADED])
-        hair_gl_bind_texture(gl, HAIR_UNIT_SHADED, view_cache->texture[HAIR_VIEW_CACHE_SHADED]);
+    view_cache->is_complete = plan->is_computed && plan->view->pass == HAIR_PASS_COLOR && !plan->shader &&
+                              renderer->pixels_per_metre > 0;
+    view_cache->pixels_per_metre = renderer->pixels_per_metre;
 }
 
 // Shade the vertices of the vertex cache.
@@ -116,8 +125,10 @@ static void shade_cached_vertices(struct hair_renderer* renderer, const struct h
 void hair_draw_write_vertices(struct hair_renderer* renderer, const struct hair_draw_plan* plan,
                               const struct hair_draw_params* params)
 {
-    if (plan->vertices == HAIR_VERTICES_PER_VIEW)
-        write_listed_vertices(renderer, plan);
-    else
+    if (plan->vertices != HAIR_VERTICES_PER_VIEW) {
         shade_cached_vertices(renderer, plan, params->chunks);
+        return;
+    }
+    if (!plan->keeps_vertices) write_listed_vertices(renderer, plan);
+    bind_listed_vertices(renderer);
 }

@@ -5,6 +5,8 @@
 
 #include "lib/gl/commands.h"
 
+#include <stdbool.h>
+
 enum { HAIR_VIEW_CACHE_POSITION, HAIR_VIEW_CACHE_TANGENT, HAIR_VIEW_CACHE_SHADED, HAIR_VIEW_CACHE_PARTS };
 
 struct hair_view_cache {
@@ -16,6 +18,8 @@ struct hair_view_cache {
     uint32_t segments; // Segments of a strand.
     uint32_t room; // Capacity in strands.
     uint32_t spare; // Number of views in sequence for which much less would do.
+    bool is_complete; // True if all listed strands are written and shaded, for a computed view.
+    float pixels_per_metre; // hair_renderer.pixels_per_metre of that view.
 };
 
 #endif

@@ -47,6 +47,7 @@ static bool keeps_light(const struct hair_renderer* renderer, const struct hair_
     if (!fits) return false;
     // Lights may change while hair is not stepped.
     if (frames == 0) return index && index == age->frame_index;
+    if (age->pace > 1) return frames + age->pace <= age->interval;
     return frames < age->interval && (renderer->frame + age->turn) % age->interval != 0;
 }
 
@@ -71,6 +72,7 @@ hair_result hair_draw_ensure_self_shadow(struct hair_renderer* renderer, struct 
                                               &drawn, part);
     struct hair_light_age* age = &renderer->light_age;
     *age = (struct hair_light_age){.interval = age->interval,
+                                   .pace = age->pace,
                                    .turn = age->turn,
                                    .frame = renderer->frame,
                                    .frame_index = plan->view->frame_index,

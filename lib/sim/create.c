@@ -11,6 +11,7 @@ static void set_up(struct hair_sim* sim, const struct hair_sim_desc* desc)
     sim->solver = desc->solver;
     sim->asked_substep = desc->substep;
     sim->rate_factor = 1;
+    sim->interval = 1;
     sim->by_thread = desc->is_by_thread && desc->solver != HAIR_SOLVER_REDBLACK;
     sim->feedback.wanted = desc->uses_feedback;
     sim->diagnosis.wanted = desc->is_diagnosed;

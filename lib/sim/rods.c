@@ -53,7 +53,8 @@ static hair_result upload_reduction(struct hair_sim* sim, const hair_vec4* reduc
 static uint32_t find_substep_scale(const struct hair_sim* sim)
 {
     uint32_t substep_scale = 1;
-    float rate = fmaxf(sim->physics.substep_rate * sim->rate_factor, HAIR_MIN_SUBSTEP_RATE);
+    float rate = fmaxf(sim->physics.substep_rate * fminf(sim->rate_factor, 1 / (float)sim->interval),
+                       HAIR_MIN_SUBSTEP_RATE);
     if (sim->unseen >= UNSEEN) rate = fminf(rate, sim->physics.offscreen_substep_rate);
     HAIR_ASSERT(rate > 0);
     while (2 * (float)substep_scale * rate <= 1) substep_scale *= 2;

@@ -54,6 +54,11 @@ void hair_sim_scale_substep_rate(struct hair_sim* sim, float factor)
     sim->rate_factor = factor;
 }
 
+void hair_sim_set_interval(struct hair_sim* sim, uint32_t frames)
+{
+    sim->interval = frames > 1 ? frames : 1;
+}
+
 bool hair_sim_has_fixed_roots(const struct hair_sim* sim)
 {
     return (sim->physics.root != HAIR_ROOT_FREE || !sim->rods) && !hair_scalp_motion_is_on(sim) &&

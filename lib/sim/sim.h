@@ -111,6 +111,7 @@ struct hair_sim {
     // Multiple of the solver's own substep length. 0 until rods are first made.
     uint32_t substep_scale;
     float rate_factor; // Factor of hair_physics.substep_rate, a power of two. At most 1.
+    uint32_t interval; // Number of frames from one step to the next.
     double unseen; // Time since a view last showed any of this hair, s.
     uint32_t guides, guide_vertices, smooth_vertices;
     uint32_t max_vertices; // Maximum number of vertices of a guide.
@@ -207,6 +208,9 @@ bool hair_sim_has_new_colliders(const struct hair_sim* sim);
 void hair_sim_set_unseen_time(struct hair_sim* sim, double seconds);
 // Multiply hair_physics.substep_rate by a factor of at most 1.
 void hair_sim_scale_substep_rate(struct hair_sim* sim, float factor);
+// Set the number of frames from one step to the next. Substeps are longer by as much, up to a power
+// of two.
+void hair_sim_set_interval(struct hair_sim* sim, uint32_t frames);
 // Return whether no strand leaves the reach of its patch, because the scalp holds all roots where
 // the groom has them.
 bool hair_sim_has_fixed_roots(const struct hair_sim* sim);
