@@ -69,6 +69,7 @@ static hair_instance* make_head(struct crowd* crowd, uint32_t head)
     physics.sleep_threshold = 0;
     if (head == 3) physics.hair_hair.cohesion = 20;
     if (head != 4) look.self_shadow.method = HAIR_SELF_SHADOW_STRANDS;
+    look.self_shadow.cell = 0.02f; // Few nodes take little time.
     desc.solver = solvers[head];
     desc.physics = &physics;
     desc.look = &look;
