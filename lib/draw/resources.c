@@ -119,7 +119,7 @@ hair_result hair_draw_ensure_textures(struct hair_renderer* renderer, struct hai
 }
 
 // Return whether a resource has what an earlier frame wrote, for a plan that keeps vertices.
-static bool is_kept(const struct hair_draw_plan* plan, int resource)
+static bool has_kept(const struct hair_draw_plan* plan, int resource)
 {
     return plan->keeps_vertices &&
            (resource == HAIR_RESOURCE_STRAND_LIST || resource == HAIR_RESOURCE_VIEW_CACHE ||
@@ -155,7 +155,7 @@ hair_result hair_draw_ensure_resources(struct hair_renderer* renderer, struct ha
     for (int i = 0; i < HAIR_RESOURCES && !result; ++i) {
         if (!needed[i]) continue;
         renderer->last_used[i] = renderer->frame;
-        if (!is_kept(plan, i)) result = resources[i].ensure(renderer, plan);
+        if (!has_kept(plan, i)) result = resources[i].ensure(renderer, plan);
     }
     return result;
 }
