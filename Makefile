@@ -139,7 +139,8 @@ docs: ## build/docs/index.html: the headers of include/hair and their guide as H
 
 test: setup ## Every test that a change must pass
 	@$(MAKE) -j$(JOBS) all examples $(TESTS)
-	@$(MAKE) check glsl consumer run-tests
+	@$(MAKE) -j$(JOBS) check glsl consumer
+	@$(MAKE) run-tests
 
 hosts: ## Print and install the missing Debian packages of the hosts that `make test hosts=1` runs
 	@[ "$(SETUP)" = 0 ] || sh tools/setup.sh tests/hosts/packages.txt
