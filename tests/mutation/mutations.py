@@ -347,4 +347,17 @@ MUTATIONS = [
      "old": "if (0 <= slot && slot < 32)",
      "new": "if (0 < slot && slot < 32)",
      "tests": ["gpu/list"]},
+    # Hair that is stepped in some frames only
+    {"name": "pending_time_dropped", "file": "lib/api/step.c",
+     "old": "hair_sim_step(&hair->sim, time + hair->pace.pending);",
+     "new": "hair_sim_step(&hair->sim, fmax(time, 0.001));",
+     "tests": ["gpu/pace"]},
+    {"name": "light_of_kept_vertices_ignored", "file": "lib/draw/kept_vertices.c",
+     "old": "memcmp(then, &own, sizeof own) == 0",
+     "new": "memcmp(then, &own, 16) == 0",
+     "tests": ["gpu/pace"]},
+    {"name": "kept_vertices_turn_against_the_head", "file": "lib/draw/kept_vertices.c",
+     "old": "hair_quat_multiply(to->rotation, hair_quat_conjugate(from->rotation));",
+     "new": "hair_quat_multiply(from->rotation, hair_quat_conjugate(to->rotation));",
+     "tests": ["gpu/pace"]},
 ]
