@@ -15,6 +15,7 @@
 #define SWIRL 1.1f // Motion around the whorl per motion away from it.
 // Height by which hair from the crown is cut shorter than hair from the hairline, m.
 #define LAYERS 0.045f
+#define CURLY_TURNS 8.5f // Mean number of turns of the longest curls.
 #define STRIDE HAIR_STYLE_PATH_STRIDE
 
 // Path of the hair of one root.
@@ -316,15 +317,17 @@ static void grow_curly(uint32_t guide, hair_vec3 root, float scale, uint32_t see
         .face = 0.024f,
     };
     run_cut(&walk, root, scale, 0.04f, path);
-    // More variation makes turns tighter than 64 vertices resolve.
+    // A kink on a shoulder would be a jump of the curl.
+    hair_style_path_smooth(path, 16);
+    // Long hair pulls its own curls out. Tighter turns would be zigzags with 64 vertices.
     struct hair_curl curl = {.radius = 0.0095f,
-                             .pitch = 0.028f,
+                             .pitch = fmaxf(0.028f, path->length / (CURLY_TURNS * scale)),
                              .start = 0.002f,
                              .full = 0.05f,
                              .variation = 0.2f,
                              .swell = 0.25f,
                              .drift = 0.010f};
-    make_lock(guide, seed + 2, 0.33f, &curl);
+    make_lock(guide, seed + 2, 0.2f, &curl);
     hair_style_path_add_curl(path, &curl);
 }
 

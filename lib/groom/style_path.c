@@ -49,6 +49,21 @@ void hair_style_path_trim(struct hair_style_path* path, float max)
     path->length -= fminf(over, 0.99f * step);
 }
 
+void hair_style_path_smooth(struct hair_style_path* path, uint32_t rounds)
+{
+    for (uint32_t round = 0; round < rounds; ++round) {
+        hair_vec3 last = path->point[0];
+        for (uint32_t i = 1; i + 1 < path->count; ++i) {
+            hair_vec3 p = path->point[i];
+            path->point[i] = hair_lerp(p, hair_lerp(last, path->point[i + 1], 0.5f), 0.5f);
+            last = p;
+        }
+    }
+    path->length = 0;
+    for (uint32_t i = 1; i < path->count; ++i)
+        path->length += hair_distance(path->point[i], path->point[i - 1]);
+}
+
 // Return the relative deviation of a curl at the distance s from the root. `which` selects the
 // pitch or the radius, which vary independently.
 static float vary(const struct hair_curl* curl, float s, uint32_t which)

@@ -42,6 +42,9 @@ void hair_style_path_add(struct hair_style_path* path, hair_vec3 p);
 // Shorten the path to `max` metres. At most one stride is removed.
 void hair_style_path_trim(struct hair_style_path* path, float max);
 
+// Smooth the path by rounds of a binomial filter. The ends stay.
+void hair_style_path_smooth(struct hair_style_path* path, uint32_t rounds);
+
 struct hair_curl {
     float radius, pitch; // m
     // Distances from the root at which the curl starts and at which its radius is reached, m.
