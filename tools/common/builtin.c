@@ -15,13 +15,14 @@
 #define LIGHTS                                                                                               \
     "'light': {'direction': [0.75, 0.75, 0.35], 'color': [4.6, 4.3, 3.9], 'ambient': [0.42, 0.45, 0.5]}, "   \
     "'lights': [{'direction': [0.35, 0.5, -0.95], 'color': [1.1, 1.15, 1.25]}], "
-// A few strands fly away from the others and break the outline, and some kink.
-#define SETTINGS                                                                                             \
+#define SHADED                                                                                               \
     "'self_shadow.method': 'strands', 'self_shadow.cell': 0.006, 'shading.roughness.along': 0.2, "           \
     "'shading.roughness.round': 0.35, 'strand.taper': '1,1,1,0.98,0.92,0.8,0.55,0.15', 'color.spread': "     \
-    "0.5, 'color.hue_spread': 0.12, 'shading.roughness_spread': 0.2, 'color.root_darkening': 0.35, "         \
-    "'strays.frizz_fraction': 0.12, 'strays.frizz': '0,0.0015,0.002,0.002,0.002,0.002,0.002,0.002', "        \
-    "'strays.frizz_wavelength': 0.035"
+    "0.5, 'color.hue_spread': 0.12, 'shading.roughness_spread': 0.2, 'color.root_darkening': 0.35"
+// A few strands fly away from the others and break the outline, and some kink.
+#define SETTINGS                                                                                             \
+    SHADED ", 'strays.frizz_fraction': 0.12, 'strays.frizz': "                                               \
+           "'0,0.0015,0.002,0.002,0.002,0.002,0.002,0.002', 'strays.frizz_wavelength': 0.035"
 #define FLYAWAY "'strays.fraction': 0.03, 'strays.distance': '0,0.02,0.03,0.035,0.035,0.035,0.035,0.035'"
 #define STUDIO LIGHTS "'settings': {" SETTINGS ", 'strand.length_variation': 0.45, " FLYAWAY "}"
 // Coils need more locks, which are spikes otherwise.
@@ -29,6 +30,12 @@
     LIGHTS "'settings': {" SETTINGS ", 'guides': 300, 'strand.length_variation': 0.45, " FLYAWAY "}"
 // Hair that is cut to one length needs more locks, whose ends are close together.
 #define BLUNT LIGHTS "'settings': {" SETTINGS ", 'guides': 400, 'strand.length_variation': 0.15, " FLYAWAY "}"
+// Strands that stray as far as from loose hair would hide how a braid is woven.
+#define WOVEN                                                                                                \
+    LIGHTS "'settings': {" SHADED ", 'strand.length_variation': 0.45, 'strays.fraction': 0.03, "             \
+           "'strays.distance': '0,0.02,0.015,0.006,0.005,0.005,0.005,0.008', 'strays.frizz_fraction': "      \
+           "0.05, 'strays.frizz': '0,0.0015,0.0015,0.001,0.001,0.001,0.001,0.001', "                         \
+           "'strays.frizz_wavelength': 0.035}"
 // Short strands lie less in line with each other.
 #define CROPPED                                                                                              \
     LIGHTS "'settings': {" SETTINGS ", 'guides': 400, 'strand.length_variation': 0.35, "                     \
@@ -49,7 +56,7 @@ const struct hair_builtin hair_builtin_scenes[] = {
     {"bun", "{'style': 'bun', 'motion': 'demo', 'settle': 0.5, 'frames': 120, 'picture': 45," BEHIND
             ", " STUDIO "}"},
     {"braid", "{'style': 'braid', 'motion': 'demo', 'settle': 0.5, 'frames': 120, 'picture': 45," BEHIND
-              ", " STUDIO "}"},
+              ", " WOVEN "}"},
     {"fur", "{'fur': {'strands': 50000, 'length': 0.03, 'ball': 0.1}, 'motion': 'shake', 'frames': 60, "
             "'picture': 20,"
             " 'settings': {'clump.weight': '0,0,0.03,0.09,0.16,0.23,0.28,0.3', 'strand.radius': 1e-4, "
@@ -76,6 +83,8 @@ const struct hair_builtin hair_builtin_scenes[] = {
 // Loose hair parts into pointed locks. Without them a veil of strands hangs before the face.
 #define POINTED                                                                                              \
     "'clump.weight': '0,0.05,0.2,0.4,0.6,0.75,0.85,0.9', 'clump.width': '1,1,0.95,0.85,0.75,0.65,0.5,0.4'"
+// Strands between guides of two strands of a braid would fill the gap between these.
+#define BRAIDED "'clump.weight': '0,0,0.4,1,1,1,1,1', 'clump.width': '1,0.9,0.5,0.28,0.24,0.24,0.24,0.3'"
 // Stubble has no locks. Strands in parallel with one guide each would be blotches.
 #define UNPARTED "'clump.weight': '0,0,0,0.03,0.06,0.1,0.15,0.2', 'clump.width': 1"
 #define LOCKS                                                                                                \
@@ -95,7 +104,7 @@ const struct hair_builtin hair_builtin_styles[] = {
     {"fringe", HELD(8, 4, 8) SMOOTH POINTED "}"},
     {"fade", HELD(12, 10, 8) SMOOTH UNPARTED "}"},
     {"bun", HELD(12, 12, 8) CURLED EVEN "}"},
-    {"braid", HELD(12, 2, 8) CURLED EVEN "}"},
+    {"braid", HELD(12, 2, 8) CURLED BRAIDED "}"},
     {"curly", HELD(8, 3, 4) WOUND LOCKS "}"},
     {"afro", HELD(12, 8, 8) CURLED COILS "}"},
     {NULL, NULL},
