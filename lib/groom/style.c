@@ -5,6 +5,8 @@
 
 #define HAIRLINE_DENSITY 0.3f // Fraction of the full density at the hairline.
 #define HAIRLINE_WIDTH 0.012f // Height above the hairline of the full density, m.
+#define FINEST 0.4f // Radius of hair at the hairline, as a fraction of the radius of other hair.
+#define FINE_HEIGHT 0.02f // Height above the hairline of the full radius, m.
 
 static hair_result grow_guides(const hair_host* host, const hair_style_desc* desc, struct hair_asset* asset)
 {
@@ -52,6 +54,30 @@ static hair_result thin_hairline(const hair_host* host, struct hair_parting part
     return HAIR_OK;
 }
 
+// Return whether all hair is combed away from the hairline, which shows.
+static bool shows_hairline(hair_style style)
+{
+    return style == HAIR_STYLE_SHORT || style == HAIR_STYLE_FADE || style == HAIR_STYLE_PONYTAIL ||
+           style == HAIR_STYLE_BUN || style == HAIR_STYLE_BRAID;
+}
+
+// Let hair of the hairline be finer than other hair, as on a head. Thick hair would draw its edge.
+static hair_result refine_hairline(const hair_host* host, hair_style style, struct hair_asset* asset)
+{
+    if (!shows_hairline(style)) return HAIR_OK;
+    float* values = hair_alloc(host, asset->scalp_vertex_count, sizeof(float));
+    if (!values) return hair_fail_memory(host, "the radii of a haircut");
+    hair_map* map = &hair_asset_add_attribute(asset, HAIR_STRAND_ATTRIBUTE_RADIUS)->map;
+    map->source = HAIR_MAP_SOURCE_VERTICES;
+    map->values = values;
+    for (uint32_t i = 0; i < asset->scalp_vertex_count; ++i) {
+        hair_vec3 p = hair_load3(asset->scalp_positions + 3 * (size_t)i), unit = hair_skull_unit(p);
+        float above = p.y - hair_scalp_hairline(atan2f(unit.x, unit.z));
+        values[i] = hair_mix(FINEST, 1, hair_smooth(0, FINE_HEIGHT, above));
+    }
+    return HAIR_OK;
+}
+
 static hair_result build_style(const hair_host* host, const hair_style_desc* desc, struct hair_asset* asset)
 {
     asset->host = *host;
@@ -64,6 +90,7 @@ static hair_result build_style(const hair_host* host, const hair_style_desc* des
     asset->scalp_vertex_count = scalp.vertex_count;
     asset->scalp_triangle_count = scalp.triangle_count;
     HAIR_TRY(thin_hairline(host, hair_style_parting(desc->style), desc->seed, asset));
+    HAIR_TRY(refine_hairline(host, desc->style, asset));
     return grow_guides(host, desc, asset);
 }
 

@@ -206,6 +206,34 @@ static void density_falls_off_over_a_centimetre(void** state)
     for (int band = 7; band < BANDS; ++band) assert_true(drawn[band] > 0.95);
 }
 
+// Check that hair at the nape gets thicker over two centimetres.
+static void hair_of_the_hairline_is_finer(void** state)
+{
+    (void)state;
+    struct hair_test_cut cut = hair_test_cut_with(&test, HAIR_STYLE_SHORT, 500, 1, 1);
+    hair_groom_desc desc = hair_groom_desc_default();
+    struct statistics radius[3] = {{0}};
+    hair_groom* groom;
+    desc.host = &test.host;
+    assert_int_equal(hair_asset_to_groom_desc(cut.asset, &desc), HAIR_OK);
+    assert_int_equal(desc.strand_attribute_count, 1);
+    desc.follower_count = 20000;
+    assert_int_equal(hair_groom_create(&desc, &groom), HAIR_OK);
+    for (uint32_t i = 0; i < groom->info.follower_count; ++i) {
+        hair_vec3 root = root_of(groom, &groom->followers[i]), unit = hair_skull_unit(root);
+        float azimuth = atan2f(unit.x, unit.z), above = root.y - hair_scalp_hairline(azimuth);
+        if (fabsf(azimuth) < 2.5f || (above > 0.012f && above < 0.03f)) continue;
+        add(&radius[above < 0.004f ? 0 : above < 0.012f ? 1 : 2], (double)groom->followers[i].offset[0].w);
+    }
+    print_message("    relative radii of %.0f, %.0f and %.0f strands: %.2f, %.2f and %.2f\n", radius[0].count,
+                  radius[1].count, radius[2].count, radius[0].mean, radius[1].mean, radius[2].mean);
+    assert_true(radius[0].count > 100 && radius[1].count > 100 && radius[2].count > 100);
+    assert_true(radius[0].mean < 0.6 * radius[2].mean && radius[1].mean < 0.9 * radius[2].mean);
+    assert_true(radius[0].mean > 0.3 * radius[2].mean && radius[0].mean < radius[1].mean);
+    hair_groom_destroy(groom);
+    hair_asset_destroy(cut.asset);
+}
+
 // Check that hair beside the parting hides the skin at the hairline. Elsewhere hair is thin there.
 static void hair_beside_a_parting_is_dense_to_the_hairline(void** state)
 {
@@ -278,9 +306,13 @@ static void the_crown_has_a_whorl(void** state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        TEST(locks_of_curly_hair_differ),          TEST(curls_turn_little_at_each_vertex),
-        TEST(density_falls_off_over_a_centimetre), TEST(hair_beside_a_parting_is_dense_to_the_hairline),
-        TEST(tips_of_long_hair_are_layered),       TEST(the_crown_has_a_whorl),
+        TEST(locks_of_curly_hair_differ),
+        TEST(curls_turn_little_at_each_vertex),
+        TEST(density_falls_off_over_a_centimetre),
+        TEST(hair_of_the_hairline_is_finer),
+        TEST(hair_beside_a_parting_is_dense_to_the_hairline),
+        TEST(tips_of_long_hair_are_layered),
+        TEST(the_crown_has_a_whorl),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
