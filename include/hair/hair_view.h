@@ -117,7 +117,8 @@ typedef enum hair_slice {
 /// With per_patch, two more details depend on the size on the screen. Cells of
 /// HAIR_SELF_SHADOW_STRANDS are at least 1 pixel large. Followers are pushed out of colliders only
 /// if 5 mm are more than a pixel, and fully from 2 pixels on. A view that does not show this
-/// displacement does not compute it.
+/// displacement does not compute it. With HAIR_SELF_SHADOW_STRANDS and a hair_shadow_map, followers
+/// are pushed out as far as in the map.
 typedef struct hair_lod {
     hair_struct_header header;
     /// Maximum fraction of the strands that are drawn.

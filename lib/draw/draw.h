@@ -55,6 +55,12 @@ struct hair_light_age {
     double fraction; // About which fraction of the strands have light.
 };
 
+// Push out of colliders in the shadow maps that were drawn last.
+struct hair_map_push_out {
+    float weight; // Displayed fraction of the displacement, the largest in `frame`.
+    uint32_t frame;
+};
+
 struct hair_renderer {
     struct hair_gl* gl;
     struct hair_geometry* geometry;
@@ -77,6 +83,7 @@ struct hair_renderer {
     // finds all.
     uint32_t sample_divisor;
     struct hair_light_age light_age;
+    struct hair_map_push_out map_push_out;
     struct hair_extent extent;
     hair_vec3 rest_size; // Size of the box around the hair at rest, in metres.
     struct hair_strand_list strand_list;

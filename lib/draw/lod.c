@@ -74,17 +74,40 @@ float hair_draw_full_importance(const struct hair_renderer* renderer, float pixe
     return fmaxf(usual.strand_pixels / fmaxf(width, 1e-6f), usual.segment_pixels / fmaxf(segment, 1e-6f));
 }
 
+// Return whether a view reads where strands are from a shadow map.
+static bool reads_shadow_map(const struct hair_renderer* renderer, const hair_view* view)
+{
+    bool reads = false;
+    if (view->pass != HAIR_PASS_COLOR ||
+        renderer->geometry->look.self_shadow.method != HAIR_SELF_SHADOW_STRANDS)
+        return false;
+    for (uint32_t i = 0; i < view->light_count; ++i) reads |= view->lights[i].hair_shadow_map != 0;
+    return reads;
+}
+
+// Return the push out of colliders that a view shows, which has `own` by its size on the screen.
+// Strands must be where shadow maps draw them, or light would pass beside them.
+static float find_push_out(struct hair_renderer* renderer, const hair_view* view, float own)
+{
+    struct hair_map_push_out* map = &renderer->map_push_out;
+    if (reads_shadow_map(renderer, view)) return fmaxf(own, map->weight);
+    if (view->pass != HAIR_PASS_DEPTH) return own;
+    map->weight = map->frame == renderer->frame ? fmaxf(map->weight, own) : own;
+    map->frame = renderer->frame;
+    return own;
+}
+
 void hair_draw_select_lod(struct hair_renderer* renderer, const struct hair_pose* head,
                           const struct hair_draw_plan* plan)
 {
     const hair_lod* lod = plan ? plan->view->lod : NULL;
+    bool is_by_size = lod && lod->per_patch && plan->vertices != HAIR_VERTICES_CACHED;
     renderer->pixels_per_metre = 0;
-    renderer->geometry->push_out_weight = 1;
-    if (!lod || !lod->per_patch || plan->vertices == HAIR_VERTICES_CACHED) return;
-    renderer->pixels_per_metre =
-        fmaxf(lod->importance * hair_draw_pixels_per_metre(renderer, head, plan->view), 1e-6f);
-    renderer->geometry->push_out_weight =
-        fminf(fmaxf(PUSH_OUT_DISTANCE * renderer->pixels_per_metre - 1, 0), 1);
+    if (is_by_size)
+        renderer->pixels_per_metre =
+            fmaxf(lod->importance * hair_draw_pixels_per_metre(renderer, head, plan->view), 1e-6f);
+    float own = is_by_size ? fminf(fmaxf(PUSH_OUT_DISTANCE * renderer->pixels_per_metre - 1, 0), 1) : 1;
+    renderer->geometry->push_out_weight = plan ? find_push_out(renderer, plan->view, own) : own;
 }
 
 float hair_draw_cell(const struct hair_renderer* renderer, const hair_view* view)

@@ -240,12 +240,38 @@ static void order_is_near_that_of_vertices(void** state)
     }
 }
 
+// A small picture does not show that a collider pushes hair out, but a detailed map does. Light
+// must not pass beside the hair.
+static void hair_is_lit_where_its_map_has_it(void** state)
+{
+    struct hair_test_scene f = start(state, HAIR_LOOK_NATURAL, FOLLOWERS);
+    hair_collider skull = hair_collider_default();
+    hair_lod lod = hair_lod_default();
+    GLuint map;
+    skull.size[0] = 1.1f * f.groom->head_sphere.w;
+    for (int k = 0; k < 3; ++k) skull.position[k] = (&f.groom->head_sphere.x)[k];
+    hair_test_ok(f.test, hair_set_colliders(f.hair, &skull, 1, sizeof skull));
+    hair_test_ok(f.test, hair_step(f.hair, 1e-4f));
+    glCreateTextures(GL_TEXTURE_2D, 1, &map);
+    glTextureStorage2D(map, 1, GL_DEPTH_COMPONENT32F, MAP, MAP);
+    lod.strand_pixels = 0.01f, lod.segment_pixels = 0.1f; // Draws all strands and segments.
+    for (int k = 0; k < 3; ++k) {
+        hair_light sun = shine(&f, 0.7853982f * (float)k, NULL, map);
+        double expected = brightness(&f, HAIR_SELF_SHADOW_STRANDS, &sun, NULL, 0);
+        sun = shine(&f, 0.7853982f * (float)k, &lod, map);
+        double lit = brightness(&f, HAIR_SELF_SHADOW_STRANDS, &sun, &lod, 0);
+        print_message("    sun at %d: %+.1f %%\n", 45 * k, 100 * (lit / expected - 1));
+        assert_true(fabs(lit / expected - 1) < 0.03);
+    }
+    glDeleteTextures(1, &map);
+    hair_test_scene_free(&f);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        HAIR_TEST(light_is_near_that_of_counted_strands),
-        HAIR_TEST(level_of_detail_keeps_light),
-        HAIR_TEST(a_twentieth_of_the_strands_keeps_light),
+        HAIR_TEST(hair_is_lit_where_its_map_has_it), HAIR_TEST(light_is_near_that_of_counted_strands),
+        HAIR_TEST(level_of_detail_keeps_light),      HAIR_TEST(a_twentieth_of_the_strands_keeps_light),
         HAIR_TEST(order_is_near_that_of_vertices),
     };
     if (hair_test_skips()) return 0;
