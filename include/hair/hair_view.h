@@ -150,8 +150,8 @@ typedef struct hair_lod {
     float light_pixels; ///< Pixels. [0, 10000]. Default 128.
     /// Size of hair at rest on the screen up to which only every second hair_step() moves it. With
     /// half of the size it is every third, and with a third of it every fourth, by turns as above.
-    /// That step advances by the time of all, with substeps that are longer by as much, see
-    /// hair_physics.substep_rate. Between, hair follows the head rigidly, and
+    /// The step that moves hair advances by the time of all. Its substeps are longer by as much,
+    /// see hair_physics.substep_rate. In the other frames, hair follows the head rigidly, and
     /// HAIR_RENDER_PATH_COMPUTE draws the vertices of the frame before, moved with the head.
     ///
     /// Motion then depends on views. A view that cannot draw those vertices steps the hair first:
