@@ -4,6 +4,11 @@
 
 #include <string.h>
 
+hair_vec3 hair_draw_find_middle(const struct hair_renderer* renderer, const struct hair_pose* head)
+{
+    return hair_rotate(head->rotation, hair_v3(renderer->reach.x, renderer->reach.y, renderer->reach.z));
+}
+
 hair_vec4 hair_draw_find_eye(const hair_mat4* view, const float projection[16])
 {
     const hair_vec4* c = view->column;

@@ -28,12 +28,6 @@ static void move_view(const hair_view* view, const struct hair_pose* from, const
     for (int i = 0; i < 16; ++i) out->view[i] = (float)moved[i];
 }
 
-// Return the middle of the hair, from the head's origin.
-static hair_vec3 find_middle(const struct hair_renderer* renderer, const struct hair_pose* head)
-{
-    return hair_rotate(head->rotation, hair_v3(renderer->reach.x, renderer->reach.y, renderer->reach.z));
-}
-
 static hair_vec3 find_direction(hair_vec4 eye, hair_vec3 middle)
 {
     hair_vec3 at = {eye.x, eye.y, eye.z};
@@ -87,7 +81,7 @@ bool hair_draw_keep_vertices(struct hair_renderer* renderer, const struct hair_p
     now.textured = plan->is_textured;
     move_view(view, from, to, &plan->moved_view);
     hair_mat4 matrix = hair_mat4_from_head(plan->moved_view.view, from);
-    hair_vec3 middle = find_middle(renderer, from);
+    hair_vec3 middle = hair_draw_find_middle(renderer, from);
     hair_vec3 then = find_direction(key->params.eye, middle);
     float cosine = hair_dot(then, find_direction(hair_draw_find_eye(&matrix, view->projection), middle));
     float change = renderer->pixels_per_metre / renderer->view_cache.pixels_per_metre - 1;

@@ -54,8 +54,7 @@ static float find_scale(const struct hair_renderer* renderer, const float projec
 float hair_draw_pixels_per_metre(const struct hair_renderer* renderer, const struct hair_pose* head,
                                  const hair_view* view)
 {
-    const hair_vec3 middle =
-        hair_rotate(head->rotation, hair_v3(renderer->reach.x, renderer->reach.y, renderer->reach.z));
+    const hair_vec3 middle = hair_draw_find_middle(renderer, head);
     hair_mat4 matrix = hair_mat4_from_head(view->view, head);
     float in_eye[16], clip[16];
     memcpy(in_eye, &matrix, sizeof in_eye);

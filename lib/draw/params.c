@@ -20,8 +20,7 @@ static void write_clip(const struct hair_renderer* renderer, const struct hair_p
     // With multisampling, the ribbon must contain whole pixels.
     out->viewport =
         (hair_vec4){viewport[2], viewport[3], samples > 1 ? 2 * DIAGONAL : DIAGONAL, view->opacity};
-    hair_vec3 at =
-        hair_rotate(head->rotation, hair_v3(renderer->reach.x, renderer->reach.y, renderer->reach.z));
+    hair_vec3 at = hair_draw_find_middle(renderer, head);
     hair_vec3 eye = {out->eye.x, out->eye.y, out->eye.z};
     float middle = out->eye.w > 0 ? hair_distance(eye, at) : -hair_dot(eye, at);
     out->sort.x = out->eye.w > 0 ? fmaxf(middle - renderer->reach.w, 0) : middle - renderer->reach.w;

@@ -13,6 +13,8 @@ void hair_draw_write_params(const struct hair_renderer* renderer, const struct h
 
 // Functions of camera.c.
 
+// Return the middle of the hair, from the head's origin.
+hair_vec3 hair_draw_find_middle(const struct hair_renderer* renderer, const struct hair_pose* head);
 // Return the position that the view matrix maps to the origin, -R^-1 t. An orthographic projection,
 // whose last row is (0, 0, 0, 1), has parallel rays. Return the direction to the eye for it, with w
 // = 0.

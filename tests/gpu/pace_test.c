@@ -92,14 +92,6 @@ static void step_until_pending(const struct pace_scene* scene, float* pixels)
     assert_true(is_pending(scene));
 }
 
-static void multiply(const float a[16], const float b[16], float out[16])
-{
-    float product[16] = {0};
-    for (int i = 0; i < 64; ++i)
-        product[i / 4 % 4 + 4 * (i / 16)] += a[i / 4 % 4 + 4 * (i % 4)] * b[4 * (i / 16) + i % 4];
-    memcpy(out, product, sizeof product);
-}
-
 // A camera that moves with the head must see the same picture, without a pass over vertices.
 static void waiting_hair_follows_the_head(void** state)
 {
@@ -129,7 +121,8 @@ static void waiting_hair_follows_the_head(void** state)
     hair_test_ok(scene.base.test, hair_set_transform(scene.base.hair, head));
     step(&scene);
     assert_true(is_pending(&scene));
-    multiply(scene.base.view.view, back, scene.base.view.view);
+    const hair_view was = scene.base.view;
+    hair_mat4_multiply(was.view, back, scene.base.view.view);
     draw(&scene, after);
     assert_true(is_pending(&scene));
     assert_int_equal(hair_test_report_row(scene.base.test, scene.base.hair, "compact_strands").runs, 0);
