@@ -10,6 +10,8 @@ function exists(mixture) # return whether some scene needs the combination
 {
     if (mixture ~ / (COLLIDER_GRID|BODIES) / && mixture !~ / COLLIDERS /) return 0
     if (mixture ~ / FEW_GUIDES / && (mixture !~ / COLLIDER_GRID / || mixture ~ / THREAD_PER_GUIDE /)) return 0
+    # Pixels of a batch have colour alone.
+    if (mixture ~ / BATCH / && mixture ~ / (DEPTH|ALPHA_COVERAGE|MOTION_OUTPUT) /) return 0
     return 1
 }
 

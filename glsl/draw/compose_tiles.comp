@@ -62,17 +62,25 @@ bool compose(uint at, vec2 pixel)
 
 void main()
 {
-    uint  number = hair_group(), own = gl_LocalInvocationID.x;
+    uint number = hair_group(), own = gl_LocalInvocationID.x, command = 0u, first_tile = HAIR_TILE_FIRST;
+#ifdef HAIR_BATCH
+    number     = find_head(number, true);
+    command    = own_head * HAIR_TILE_FIRST;
+    first_tile = uint(HAIR_BATCH_HEADS) * HAIR_TILE_FIRST + draw.first_tile;
+#endif
     uvec2 pixel = uvec2(number % raster.across, number / raster.across) * HAIR_RASTER_TILE +
                   uvec2(own % HAIR_RASTER_TILE, own / HAIR_RASTER_TILE);
     if (own == 0u) is_there = false;
     synchronise();
     if (pixel.x < raster.columns && pixel.y < raster.rows &&
-        compose((pixel.y * raster.columns + pixel.x) * raster.samples, vec2(pixel)))
+        compose(first_sample() + (pixel.y * raster.columns + pixel.x) * raster.samples, vec2(pixel)))
         is_there = true;
     synchronise();
     if (own > 0u || !is_there) return;
     // Tiles may be drawn in any order.
-    tile[HAIR_TILE_FIRST + atomicAdd(tile[HAIR_TILE_VERTICES], HAIR_TILE_CORNERS) / HAIR_TILE_CORNERS] =
-        number;
+    uint place = atomicAdd(tile[command + HAIR_TILE_VERTICES], HAIR_TILE_CORNERS) / HAIR_TILE_CORNERS;
+#ifdef HAIR_BATCH
+    number |= own_head << HAIR_BATCH_TILE_BITS;
+#endif
+    tile[first_tile + place] = number;
 }

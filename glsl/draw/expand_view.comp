@@ -59,6 +59,10 @@ void main()
     uint i = hair_group() * HAIR_GROUP_SIZE + gl_LocalInvocationID.x,
          each = command[HAIR_EXPAND_VIEW_COMMAND].each;
     uint place = i / each, k = i % each, at = place * (draw.segments + 1u) + k;
+#ifndef HAIR_SIDES
+    if (i == 0u && draw.strands_at > 0u)
+        expanded[draw.strands_at] = vec4(command[HAIR_EXPAND_VIEW_COMMAND].strands, each, 0.0, 0.0);
+#endif
     if (place >= command[HAIR_EXPAND_VIEW_COMMAND].strands) return;
     hair_strand own = strand[place];
     // Vertices beyond the last segment of a strand lie at its tip.

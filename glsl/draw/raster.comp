@@ -12,50 +12,23 @@
 #extension GL_NV_shader_atomic_int64 : require
 #endif
 #include "draw/raster_quad.glsl"
-#include "draw/nearest.glsl"
+#include "draw/raster_walk.glsl"
 #include "workgroup.glsl"
 layout(local_size_x = HAIR_GROUP_SIZE) in;
 
+#ifdef HAIR_BATCH
+uint count_strands() { return uint(ribbon_position[draw.strands_at].x); }
+#else
 layout(std430, binding = HAIR_BIND_COMMAND) readonly restrict buffer command_buffer
 {
     hair_draw_command command[];
 };
 
+uint count_strands() { return command[0].strands; }
+#endif
+
 shared bool has_large; // Some segments of this work group are too large for their threads.
 shared uint ends[HAIR_GROUP_SIZE]; // Inclusive prefix sum of the pieces of those segments.
-
-// The way over the pixels of a ribbon: lines of pixels across its longer extent. Along a line, few
-// pixels or none have a sample in a thin ribbon, and they are found without a search.
-struct raster_walk {
-    bool  upright;     // Lines are rows. Otherwise they are columns.
-    int   first, last; // Lines.
-    int   low, high;   // Pixels of a line.
-    float start, slope; // Pixel of the middle line in the first line, and its increase by line.
-    float reach;       // Half of the pixels of a line that the ribbon covers.
-};
-
-raster_walk walk_of(raster_quad q)
-{
-    raster_walk w;
-    float margin = margin_of(q), beside = margin + (raster.samples > 1u ? 0.5 : 0.0);
-    vec2  lower  = min(min(q.corner[0].xy, q.corner[1].xy), min(q.corner[2].xy, q.corner[3].xy));
-    vec2  upper  = max(max(q.corner[0].xy, q.corner[1].xy), max(q.corner[2].xy, q.corner[3].xy));
-    vec2  size   = vec2(raster.columns, raster.rows);
-    lower        = max(ceil(q.origin + lower - beside - 0.5), 0.0);
-    upper        = min(floor(q.origin + upper + beside - 0.5), size - 1.0);
-    bool there   = q.there && all(lessThan(lower, size)) && all(greaterThanEqual(upper, vec2(0.0)));
-    w.upright    = abs(q.across.x) >= abs(q.across.y);
-    vec2 n = q.across.xy, origin = q.origin;
-    if (!w.upright) n = n.yx, origin = origin.yx, lower = lower.yx, upper = upper.yx;
-    w.first = there ? int(lower.y) : 0;
-    w.last  = there ? int(upper.y) : -1;
-    w.low   = there ? int(lower.x) : 0;
-    w.high  = there ? int(upper.x) : -1;
-    w.slope = -n.y / n.x;
-    w.start = origin.x - q.across.z / n.x + w.slope * (lower.y - origin.y);
-    w.reach = (q.half_width + margin) / abs(n.x);
-    return w;
-}
 
 // Rasterise a sample of `count` pixels of a line from number `from` on.
 void fill(uint segment, raster_quad q, raster_walk w, int line, uint s, int from, int count)
@@ -68,7 +41,8 @@ void fill(uint segment, raster_quad q, raster_walk w, int line, uint s, int from
     for (int i = first; i <= last; ++i) {
         ivec2 pixel = w.upright ? ivec2(i, line) : ivec2(line, i);
         vec2  place = vec2(pixel) - q.origin + sample_at(s);
-        uint  number = (uint(pixel.y) * raster.columns + uint(pixel.x)) * raster.samples + s;
+        uint  number =
+            first_sample() + (uint(pixel.y) * raster.columns + uint(pixel.x)) * raster.samples + s;
 #ifdef HAIR_ALPHA_COVERAGE
         add_opacity(segment, q, number, pixel, place);
 #else
@@ -121,7 +95,7 @@ void rasterise(uint base)
     synchronise();
     uint mine = (base + own) / raster.split;
     int  line = int((base + own) % raster.split);
-    if (mine / draw.segments < command[0].strands) pieces = fill_small(mine, line);
+    if (mine / draw.segments < count_strands()) pieces = fill_small(mine, line);
     ends[own] = pieces;
     if (pieces > 0u) has_large = true;
     synchronise();
@@ -147,9 +121,14 @@ void rasterise(uint base)
 void main()
 {
     // The CPU dispatches as many groups as it expects strands, and does not know their number.
-    uint threads = command[0].strands * draw.segments * raster.split;
-    uint stride  = hair_group_count() * HAIR_GROUP_SIZE;
-    for (uint base = hair_group() * HAIR_GROUP_SIZE; base < threads; base += stride) {
+    uint group = hair_group(), groups = hair_group_count();
+#ifdef HAIR_BATCH
+    group  = find_head(group, false);
+    groups = draw.raster_end - (own_head > 0u ? groups_until(own_head - 1u, false) : 0u);
+#endif
+    uint threads = count_strands() * draw.segments * raster.split;
+    uint stride  = groups * HAIR_GROUP_SIZE;
+    for (uint base = group * HAIR_GROUP_SIZE; base < threads; base += stride) {
         rasterise(base);
         synchronise();
     }

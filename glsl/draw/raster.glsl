@@ -1,15 +1,19 @@
 // raster.glsl - ribbons of segments in the window, for the compute rasteriser. They lie between
 // vertices of the vertex cache or, with levels of detail, between per-view vertices. Their shape is
 // that of ribbon.geom.
+#include "draw/raster_params.glsl"
+#ifndef HAIR_BATCH
 #include "draw_params.glsl"
+#endif
 #include "draw/ribbon.glsl"
 #include "strands/packed.glsl"
 
-layout(std140, binding = HAIR_BIND_RASTER) uniform raster_buffer { hair_raster_params raster; };
+#ifndef HAIR_BATCH
 layout(std430, binding = HAIR_BIND_LISTED_STRAND) readonly restrict buffer strand_buffer
 {
     hair_strand strand[];
 };
+#endif
 layout(std430, binding = HAIR_BIND_RIBBON_POSITION) readonly restrict buffer position_buffer
 {
     vec4 ribbon_position[];
@@ -25,14 +29,19 @@ struct raster_ribbon {
     vec2 seen; // Range in [0, 1] that is in front of the eye.
 };
 
-// Return the index of a segment's first vertex. `width` is the factor of its width. `there` is
-// whether its strand has the segment.
+// Return the index of a segment's first vertex among those of the head. `width` is the factor of
+// its width. `there` is whether its strand has the segment.
 int vertex_of(uint segment, out float width, out bool there)
 {
-    uint  each   = draw.segments, k = segment % each;
+    uint each = draw.segments, k = segment % each;
+#ifdef HAIR_BATCH
+    // Segments beyond the tip of a strand have no length.
+    there = float(k + 1u) < ribbon_position[draw.strands_at].y;
+#else
     hair_strand own = strand[segment / each];
     there           = float(k) < own.whole;
-#ifdef HAIR_WIDENED
+#endif
+#if defined(HAIR_WIDENED) || defined(HAIR_BATCH)
     width = 1.0;
     return int(segment / each * (each + 1u) + k);
 #else
@@ -55,7 +64,7 @@ raster_ribbon ribbon_of(uint segment)
     raster_ribbon r;
     float         width;
     bool          there;
-    int           at = vertex_of(segment, width, there);
+    int           at = first_vertex() + vertex_of(segment, width, there);
     for (int end = 0; end < 2; ++end) {
         vec4 vertex   = ribbon_position[at + end];
         vec3 tangent  = unpack_tangent(ribbon_tangent[at + end]);

@@ -1,11 +1,10 @@
-// raster_clear.comp - clearing of all samples, and of the command that draws the tiles with hair. A
+// raster_clear.comp - clearing of all samples, and of the commands that draw the tiles with hair. A
 // thread clears four numbers, because the length of the buffer is a multiple of four.
 #version 450 core
 #include "workgroup.glsl"
-#include "shared.h"
+#include "draw/raster_params.glsl"
 layout(local_size_x = HAIR_GROUP_SIZE) in;
 
-layout(std140, binding = HAIR_BIND_RASTER) uniform raster_buffer { hair_raster_params raster; };
 layout(std430, binding = HAIR_BIND_NEAREST) writeonly restrict buffer nearest_buffer { uvec4 nearest[]; };
 layout(std430, binding = HAIR_BIND_TILE) writeonly restrict buffer tile_buffer { uint tile[]; };
 
@@ -23,6 +22,15 @@ layout(std430, binding = HAIR_BIND_TILE) writeonly restrict buffer tile_buffer {
 void main()
 {
     uint i = hair_group() * HAIR_GROUP_SIZE + gl_LocalInvocationID.x;
-    if (i < HAIR_TILE_FIRST) tile[i] = i == HAIR_TILE_INSTANCES ? 1u : 0u;
-    if (4u * i < raster.columns * raster.rows * raster.samples * NUMBERS) nearest[i] = uvec4(NONE);
+#ifdef HAIR_BATCH
+    uint samples = batch[0].samples, heads = batch[0].heads;
+    own_head = min(i / HAIR_TILE_FIRST, heads - 1u);
+    uint first = HAIR_TILE_CORNERS * draw.first_tile;
+#else
+    uint samples = raster.columns * raster.rows * raster.samples, heads = 1u, first = 0u;
+#endif
+    uint k = i % HAIR_TILE_FIRST;
+    if (i < heads * HAIR_TILE_FIRST)
+        tile[i] = k == HAIR_TILE_INSTANCES ? 1u : k == HAIR_TILE_START ? first : 0u;
+    if (4u * i < samples * NUMBERS) nearest[i] = uvec4(NONE);
 }

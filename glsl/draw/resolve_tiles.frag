@@ -3,9 +3,11 @@
 // motion between two vertices of the vertex cache. With HAIR_ALPHA_COVERAGE it is
 // the opacity of all ribbons in a pixel.
 #version 450 core
-#include "shared.h"
+#include "draw/raster_params.glsl"
 
-layout(std140, binding = HAIR_BIND_RASTER) uniform raster_buffer { hair_raster_params raster; };
+#ifdef HAIR_BATCH
+flat in uint head_of_tile;
+#endif
 #ifdef HAIR_DEPTH
 layout(std430, binding = HAIR_BIND_NEAREST) readonly restrict buffer nearest_buffer { uint nearest[]; };
 #define NUMBER(at) nearest[at]
@@ -55,7 +57,7 @@ void write(uint at)
     gl_FragDepth = raster.depth_from + raster.depth_by * uintBitsToFloat(NUMBER(at) ^ raster.flips);
 #ifndef HAIR_DEPTH
     uint  place    = nearest[at].x;
-    int   vertex   = int(place >> raster.fraction_bits);
+    int   vertex   = first_vertex() + int(place >> raster.fraction_bits);
     float steps    = float(1u << raster.fraction_bits);
     float fraction = (float(place & ((1u << raster.fraction_bits) - 1u)) + 0.5) / steps;
     color = mix(texelFetch(shaded_texture, vertex), texelFetch(shaded_texture, vertex + 1), fraction);
@@ -69,8 +71,11 @@ void write(uint at)
 
 void main()
 {
+#ifdef HAIR_BATCH
+    own_head = head_of_tile;
+#endif
     uvec2 pixel = uvec2(gl_FragCoord.xy) - uvec2(raster.first_x, raster.first_y);
     if (pixel.x >= raster.columns || pixel.y >= raster.rows) discard;
-    write((pixel.y * raster.columns + pixel.x) * raster.samples +
+    write(first_sample() + (pixel.y * raster.columns + pixel.x) * raster.samples +
           (raster.samples > 1u ? uint(gl_SampleID) % raster.samples : 0u));
 }

@@ -1,14 +1,23 @@
 // resolve_tiles.vert - the tiles of the picture that contain hair, as two triangles each.
 #version 450 core
-#include "shared.h"
+#include "draw/raster_params.glsl"
 
-layout(std140, binding = HAIR_BIND_RASTER) uniform raster_buffer { hair_raster_params raster; };
+#ifdef HAIR_BATCH
+#define TILES (uint(HAIR_BATCH_HEADS) * HAIR_TILE_FIRST)
+flat out uint head_of_tile;
+#else
+#define TILES HAIR_TILE_FIRST
+#endif
 layout(binding = HAIR_UNIT_TILE) uniform usamplerBuffer tile_texture;
 
 void main()
 {
     int  place  = gl_VertexID / int(HAIR_TILE_CORNERS);
-    uint number = texelFetch(tile_texture, int(HAIR_TILE_FIRST) + place).x;
+    uint number = texelFetch(tile_texture, int(TILES) + place).x;
+#ifdef HAIR_BATCH
+    own_head = head_of_tile = number >> HAIR_BATCH_TILE_BITS;
+    number &= (1u << HAIR_BATCH_TILE_BITS) - 1u;
+#endif
     uint corner = uint(gl_VertexID) % HAIR_TILE_CORNERS;
     corner      = corner < 3u ? corner : corner - 2u;
     uvec2 tile  = uvec2(number % raster.across, number / raster.across) + uvec2(corner & 1u, corner >> 1u);

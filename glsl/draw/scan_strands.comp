@@ -53,7 +53,8 @@ void write_commands(uint kind, uint at, uint strands, uint each, uint before, ui
 // Write the dispatch of one thread per indexed vertex, in the dimensions of workgroup.glsl.
 void write_expand_view_command(uint strands, uint each)
 {
-    uint  groups = (strands * each + HAIR_GROUP_SIZE - 1u) / HAIR_GROUP_SIZE;
+    // One group notes that there are no strands.
+    uint  groups = max((strands * each + HAIR_GROUP_SIZE - 1u) / HAIR_GROUP_SIZE, 1u);
     uvec2 size = uvec2(min(groups, HAIR_MAX_GROUPS), (groups + HAIR_MAX_GROUPS - 1u) / HAIR_MAX_GROUPS);
     command[HAIR_EXPAND_VIEW_COMMAND] = hair_draw_command(size.x, size.y, 1u, 0u, 0u, strands, each, 0u);
 }

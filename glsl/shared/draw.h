@@ -11,8 +11,12 @@
 // The list of tiles begins with the command that draws them. Then come their numbers.
 #define HAIR_TILE_VERTICES 0u        // Index of the number of vertices.
 #define HAIR_TILE_INSTANCES 1u       // Index of the number of instances, which is 1.
+#define HAIR_TILE_START 2u           // Index of the first vertex.
 #define HAIR_TILE_FIRST 4u           // Index of the first tile.
 #define HAIR_TILE_CORNERS 6u         // Vertices of a tile.
+// Heads of a batch have their commands before all tiles. A tile has its head in the upper bits.
+#define HAIR_BATCH_HEADS 128         // Maximum heads of a batch.
+#define HAIR_BATCH_TILE_BITS 20      // Bits of a tile's number.
 // Depths in the window that pass a test of the application, as bits.
 #define HAIR_TEST_NEARER 1u // Less than that of the framebuffer.
 #define HAIR_TEST_FARTHER 2u // Greater.
@@ -99,6 +103,23 @@ struct hair_raster_params {
 };
 HAIR_SIZE(hair_raster_params)
 
+// A head of a batch, whose heads are rasterised together. Numbers that begin with `first` are those
+// of the head in the buffers of the batch.
+struct hair_batch_head {
+    HAIR_STRUCT(hair_raster_params) raster;
+    hair_vec4 eye;      // Member of hair_draw_params, like `segments`.
+    hair_uint segments;
+    hair_uint first_vertex, first_sample, first_tile;
+    // Work groups that rasterise and that compose this head and those before it.
+    hair_uint raster_end, compose_end;
+    hair_uint heads, samples; // Numbers of the whole batch.
+    // Vertex that is none: x is the number of listed strands, and y that of the written vertices of
+    // each.
+    hair_uint strands_at;
+    hair_uint unused0, unused1, unused2;
+};
+HAIR_SIZE(hair_batch_head)
+
 // Parameters of a draw. Positions are from the head's origin, as in the smoothed guides.
 struct hair_draw_params {
     hair_mat4 view; // To view space.
@@ -136,7 +157,8 @@ struct hair_draw_params {
     float     curl_slope;  // Mean square slope of curls, see hair_lighting_find_curl().
     float     curl_rate;   // Phase of curls by length along a strand, radians/m.
     hair_uint grid_has_all; // 1 if the density grid has the strands that the view leaves out too.
-    hair_uint unused0, unused1, unused2;
+    hair_uint strands_at; // Per-view vertex with the number of listed strands. 0 if there is none.
+    hair_uint unused0, unused1;
     hair_vec4 map_weights; // Weights of the sets of maps. Their sum is 1.
     // Parameters of the level of detail.
 

@@ -160,7 +160,9 @@
 // inverted where depth decreases with distance. HAIR_NOBODY means that no ribbon is visible.
 // Depth-only passes have a uint[] with y alone.
 #define HAIR_BIND_NEAREST 0
-#define HAIR_BIND_TILE 1    // uint[] per tile. 1 if the tile contains hair.
+// uint[]. Command of HAIR_TILE_FIRST numbers, then the tiles that contain hair.
+#define HAIR_BIND_TILE 1
+#define HAIR_BIND_BATCH 3   // hair_batch_head[]. Read-only.
 // Vertices of ribbons, as at HAIR_BIND_CACHED_POSITION and HAIR_BIND_CACHED_TANGENT. Read-only. The
 // passes that sort segments have the positions too.
 #define HAIR_BIND_RIBBON_POSITION 6

@@ -420,7 +420,10 @@ HAIR_API hair_result hair_draw(hair_instance* hair, const hair_view* view);
 /// for each of them.
 ///
 /// A GPU prepares the strands of all instances side by side, as hair_step_list() steps them. An
-/// instance that fails is not drawn, and the others are drawn.
+/// instance that fails is not drawn, and the others are drawn. Small instances with a level of
+/// detail are drawn by one call, after the others, where their order does not matter: by
+/// HAIR_RENDER_PATH_COMPUTE in colour, with depth tested and written, and without blending, stencil
+/// test and logic operation.
 ///
 /// @param list Instances of one context, each at most once. May be NULL if `count` is 0.
 /// @param count Number of instances.

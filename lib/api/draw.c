@@ -219,7 +219,7 @@ hair_result hair_draw(hair_instance* hair, const hair_view* view)
 // Lists -------------------------------------------------------------------------------------------
 
 // Instances of a list that are drawn together, with their plans.
-struct draw_batch {
+struct list_part {
     hair_instance* const* hair;
     uint32_t count;
     struct hair_draw_plan* plan;
@@ -228,63 +228,106 @@ struct draw_batch {
     hair_result result[HAIR_GL_STREAMS];
 };
 
-// Prepare all instances side by side, and then draw them in their order.
-static void draw_recorded(struct hair_gl* gl, struct draw_batch* batch)
+// Let the plans of a part be those of a batch that may be, unless their vertices are kept. A batch
+// has at least two heads.
+static void gather(struct list_part* part)
 {
-    for (uint32_t i = 0; i < batch->drawn; ++i) {
-        hair_instance* hair = batch->of[i];
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < part->drawn; ++i) count += hair_batch_accepts(&part->plan[i]);
+    bool is_batch = count > 1 && hair_batch_is_possible(&part->of[0]->context->gl);
+    for (uint32_t i = 0; i < part->drawn; ++i)
+        if (!part->plan[i].keeps_vertices)
+            part->plan[i].is_of_batch = is_batch && hair_batch_accepts(&part->plan[i]);
+}
+
+// Give all heads of the batch their places. Those that get none are drawn by themselves.
+static void give_places(struct list_part* part)
+{
+    for (uint32_t i = 0; i < part->drawn; ++i) {
+        hair_instance* hair = part->of[i];
+        struct hair_draw_plan* plan = &part->plan[i];
+        if (plan->is_of_batch && !plan->keeps_vertices)
+            plan->is_of_batch = hair_batch_join(&hair->renderer, &hair->sim.head_at_last_step, plan);
+    }
+}
+
+// Draw the batch. Its passes are timed for no instance.
+static void draw_batch(struct hair_gl* gl, struct list_part* part)
+{
+    const struct hair_draw_plan* any = NULL;
+    for (uint32_t i = 0; i < part->drawn; ++i)
+        if (part->plan[i].is_of_batch && !part->result[i] && !part->plan[i].is_empty) any = &part->plan[i];
+    if (!any) return;
+    hair_gl_set_owner(gl, NULL, NULL);
+    hair_result result = hair_batch_draw(&part->of[0]->context->batch, any);
+    for (uint32_t i = 0; i < part->drawn; ++i) {
+        if (!part->plan[i].is_of_batch || part->result[i] || part->plan[i].is_empty) continue;
+        part->result[i] = result;
+        if (!result) hair_gl_profiler_count(&part->of[i]->profiler, any->draw);
+    }
+}
+
+// Prepare all instances side by side, and then draw them in their order.
+static void draw_recorded(struct hair_gl* gl, struct list_part* part)
+{
+    for (uint32_t i = 0; i < part->drawn; ++i) {
+        hair_instance* hair = part->of[i];
         hair_gl_set_owner(gl, &hair->memory, &hair->profiler);
         hair_gl_begin_stream(gl);
-        batch->result[i] = prepare_draw(hair, &batch->plan[i]);
+        part->result[i] = prepare_draw(hair, &part->plan[i]);
     }
-    for (uint32_t i = 0; i < batch->drawn; ++i) {
-        if (batch->result[i]) continue;
-        hair_gl_set_owner(gl, &batch->of[i]->memory, &batch->of[i]->profiler);
-        hair_gl_continue_stream(gl, i);
-        hair_draw_finish(&batch->of[i]->renderer, &batch->plan[i]);
+    for (uint32_t i = 0; i < part->drawn; ++i) {
+        if (part->result[i]) continue;
+        hair_gl_set_owner(gl, &part->of[i]->memory, &part->of[i]->profiler);
+        if (!part->plan[i].is_of_batch) hair_gl_continue_stream(gl, i);
+        hair_draw_finish(&part->of[i]->renderer, &part->plan[i]);
     }
     hair_gl_end_recording(gl);
 }
 
-static void draw_in_turn(struct hair_gl* gl, struct draw_batch* batch, const hair_view* view)
+static void draw_in_turn(struct hair_gl* gl, struct list_part* part, const hair_view* view)
 {
-    for (uint32_t i = 0; i < batch->drawn; ++i) {
-        hair_instance* hair = batch->of[i];
+    for (uint32_t i = 0; i < part->drawn; ++i) {
+        hair_instance* hair = part->of[i];
         hair_gl_set_owner(gl, &hair->memory, &hair->profiler);
         if (is_of_surroundings(view)) {
-            batch->result[i] = draw_surroundings(hair, view);
+            part->result[i] = draw_surroundings(hair, view);
             continue;
         }
-        batch->result[i] = prepare_draw(hair, &batch->plan[i]);
-        if (!batch->result[i]) hair_draw_finish(&hair->renderer, &batch->plan[i]);
+        part->result[i] = prepare_draw(hair, &part->plan[i]);
+        if (!part->result[i]) hair_draw_finish(&hair->renderer, &part->plan[i]);
     }
 }
 
-// Draw a batch. Return the first failure.
-static hair_result draw_all(struct draw_batch* batch, const struct hair_view_copy* copy)
+// Draw a part of a list. Return the first failure.
+static hair_result draw_all(struct list_part* part, const struct hair_view_copy* copy)
 {
     const hair_view* view = &copy->view;
-    hair_context* context = batch->hair[0]->context;
+    hair_context* context = part->hair[0]->context;
     struct hair_gl* gl = &context->gl;
     hair_result first = HAIR_OK;
-    for (uint32_t i = 0; i < batch->count; ++i) {
-        hair_make_plan(batch->hair[i], view, &batch->plan[batch->drawn]);
-        if (!is_to_be_drawn(batch->hair[i], &batch->plan[batch->drawn])) continue;
-        note_size(batch->hair[i], copy);
-        batch->of[batch->drawn++] = batch->hair[i];
+    for (uint32_t i = 0; i < part->count; ++i) {
+        hair_make_plan(part->hair[i], view, &part->plan[part->drawn]);
+        if (!is_to_be_drawn(part->hair[i], &part->plan[part->drawn])) continue;
+        note_size(part->hair[i], copy);
+        part->of[part->drawn++] = part->hair[i];
     }
-    if (!batch->drawn) return HAIR_OK;
-    first = settle(batch->of, batch->plan, batch->drawn);
-    hair_enter_frame(batch->of[0]);
+    if (!part->drawn) return HAIR_OK;
+    gather(part);
+    first = settle(part->of, part->plan, part->drawn);
+    gather(part);
+    hair_enter_frame(part->of[0]);
+    give_places(part);
     bool has_strands = !is_of_surroundings(view) && view->pass != HAIR_PASS_GUIDES;
-    if (has_strands && batch->drawn > 1 && hair_gl_begin_recording(gl, batch->drawn))
-        draw_recorded(gl, batch);
+    if (has_strands && part->drawn > 1 && hair_gl_begin_recording(gl, part->drawn))
+        draw_recorded(gl, part);
     else
-        draw_in_turn(gl, batch, view);
+        draw_in_turn(gl, part, view);
+    draw_batch(gl, part);
     hair_result lost = hair_leave_frame(context, HAIR_OK);
-    for (uint32_t i = 0; i < batch->drawn; ++i) {
-        if (!first) first = batch->result[i];
-        if (!lost && !batch->result[i]) hair_sim_set_unseen_time(&batch->of[i]->sim, 0);
+    for (uint32_t i = 0; i < part->drawn; ++i) {
+        if (!first) first = part->result[i];
+        if (!lost && !part->result[i]) hair_sim_set_unseen_time(&part->of[i]->sim, 0);
     }
     return lost ? lost : first;
 }
@@ -301,9 +344,8 @@ hair_result hair_draw_list(hair_instance* const* list, uint32_t count, const hai
     if (!plans) return hair_fail_memory(host, "a list of instances");
     hair_result first = HAIR_OK;
     for (uint32_t i = 0; i < count && first != HAIR_ERROR_CONTEXT_LOST; i += max) {
-        struct draw_batch batch = {
-            .hair = list + i, .count = count - i < max ? count - i : max, .plan = plans};
-        hair_result result = draw_all(&batch, &own);
+        struct list_part part = {.hair = list + i, .count = count - i < max ? count - i : max, .plan = plans};
+        hair_result result = draw_all(&part, &own);
         if (!first || result == HAIR_ERROR_CONTEXT_LOST) first = result;
     }
     hair_free(host, plans);

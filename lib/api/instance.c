@@ -75,7 +75,7 @@ hair_result hair_instance_create_rooms(hair_instance* hair, const hair_groom* gr
         hair_geometry_create(&hair->geometry, gl, groom, &hair->sim, &look, hair->creation.uses_prepass));
     HAIR_TRY(hair_lighting_create(&hair->lighting, gl, groom));
     hair_renderer_create(&hair->renderer, gl, groom, hair->bounds, &hair->geometry, &hair->lighting,
-                         &context->fastest);
+                         &context->batch, &context->fastest);
     // A number of the instance alone, so that no picture depends on other instances.
     hair->renderer.light_age.turn = hair_crc_add(0, sim->head.position, sizeof sim->head.position);
     hair_sim_reset(&hair->sim);

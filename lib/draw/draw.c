@@ -5,7 +5,8 @@
 
 void hair_renderer_create(struct hair_renderer* renderer, struct hair_gl* gl, const struct hair_groom* groom,
                           const hair_vec3 bounds[2], struct hair_geometry* geometry,
-                          struct hair_lighting* lighting, const struct hair_fastest* fastest)
+                          struct hair_lighting* lighting, struct hair_batch* batch,
+                          const struct hair_fastest* fastest)
 {
     hair_vec3 middle = hair_lerp(bounds[0], bounds[1], 0.5f);
     renderer->gl = gl;
@@ -15,6 +16,7 @@ void hair_renderer_create(struct hair_renderer* renderer, struct hair_gl* gl, co
     renderer->reach = (hair_vec4){middle.x, middle.y, middle.z, hair_distance(middle, bounds[1])};
     renderer->rest_size = hair_sub(groom->upper, groom->lower);
     hair_draw_find_extent(renderer, groom);
+    renderer->batch = batch;
     renderer->fastest = fastest;
 }
 
@@ -73,7 +75,7 @@ static void prepare_vertices(struct hair_renderer* renderer, struct hair_draw_pl
     if (plan->has_strand_list && !plan->keeps_vertices) hair_draw_update_strand_list(renderer, plan, params);
     if (plan->vertices == HAIR_VERTICES_CACHED) hair_geometry_bind_vertex_cache(renderer->geometry);
     if (plan->shade) hair_draw_write_vertices(renderer, plan, params);
-    if (plan->is_computed) hair_draw_rasterise(renderer, plan);
+    if (plan->is_computed && !plan->is_of_batch) hair_draw_rasterise(renderer, plan);
     if (hair_draw_has_motion(plan->view)) hair_geometry_bind_history(renderer->geometry);
     if (plan->blending == HAIR_BLENDING_SORTED) hair_draw_sort(renderer);
 }
@@ -137,12 +139,18 @@ hair_result hair_draw_prepare(struct hair_renderer* renderer, const struct hair_
     if (result || plan->is_empty) return result;
 
     HAIR_ASSERT(plan->draw_program && (plan->shade_program != 0) == (plan->shade != 0));
+    if (plan->is_of_batch && plan->keeps_vertices) {
+        hair_batch_add(renderer, plan);
+        return HAIR_OK;
+    }
     hair_draw_write_params(renderer, head, view, &params);
     if (plan->vertices == HAIR_VERTICES_TESSELLATED) hair_draw_cull_patches(renderer, view, &params);
     params.textured = plan->is_textured;
+    if (plan->is_of_batch) params.strands_at = hair_batch_count_vertices(renderer->view_cache.place) - 1;
     hair_gl_write_uniform(renderer->gl, renderer->geometry->params, sizeof params, &params);
     hair_draw_bind_plan(renderer, plan);
     prepare_vertices(renderer, plan, &params);
+    if (plan->is_of_batch) hair_batch_add(renderer, plan);
     return HAIR_OK;
 }
 
@@ -151,7 +159,7 @@ void hair_draw_finish(struct hair_renderer* renderer, const struct hair_draw_pla
     if (plan->view->pass == HAIR_PASS_GUIDES) {
         draw_guides(renderer, plan->head, plan->view);
     } else if (!plan->is_empty) {
-        draw_followers(renderer, plan);
+        if (!plan->is_of_batch) draw_followers(renderer, plan);
         hair_lighting_unbind(renderer->lighting);
     }
 }

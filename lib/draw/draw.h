@@ -2,6 +2,7 @@
 #ifndef HAIR_DRAW_DRAW_H
 #define HAIR_DRAW_DRAW_H
 
+#include "lib/draw/batch.h"
 #include "lib/draw/fastest.h"
 #include "lib/draw/host_buffers.h"
 #include "lib/draw/occlusion.h"
@@ -90,17 +91,19 @@ struct hair_renderer {
     struct hair_sorted_segments sorted_segments;
     struct hair_raster raster;
     struct hair_view_cache view_cache;
+    struct hair_batch* batch; // Batch of the context.
     struct hair_occlusion occlusion;
     struct hair_host_buffers host;
     // Bounding sphere of the hair in the head's frame. xyz is the centre, w the radius in metres.
     hair_vec4 reach;
 };
 
-// Create a renderer of strands and lighting, which must outlive it like `fastest`. `bounds` are the
-// lower and the upper corner of the hair in the head's frame.
+// Create a renderer of strands and lighting, which must outlive it like `batch` and `fastest`.
+// `bounds` are the lower and the upper corner of the hair in the head's frame.
 void hair_renderer_create(struct hair_renderer* renderer, struct hair_gl* gl, const struct hair_groom* groom,
                           const hair_vec3 bounds[2], struct hair_geometry* geometry,
-                          struct hair_lighting* lighting, const struct hair_fastest* fastest);
+                          struct hair_lighting* lighting, struct hair_batch* batch,
+                          const struct hair_fastest* fastest);
 void hair_renderer_destroy(struct hair_renderer* renderer);
 // Set whether roots are fixed to the groom, and whether all strands are attached to it. Culling
 // depends on both.
@@ -203,7 +206,8 @@ void hair_draw_forget_vertices(struct hair_renderer* renderer);
 // must be validated. `head` must be valid until hair_draw_finish().
 hair_result hair_draw_prepare(struct hair_renderer* renderer, const struct hair_pose* head,
                               struct hair_draw_plan* plan);
-// Run the pass that draws. What hair_draw_prepare() has bound must still be bound.
+// Run the pass that draws. What hair_draw_prepare() has bound must still be bound. Heads of a batch
+// are drawn by hair_batch_draw() instead.
 void hair_draw_finish(struct hair_renderer* renderer, const struct hair_draw_plan* plan);
 
 // Draw the colliders, and a slice of the field if `view` requests it. A slice needs an up-to-date
@@ -229,6 +233,7 @@ void hair_draw_issue_sorted_segments(struct hair_renderer* renderer, const struc
 
 // Create the buffers of per-view vertices. Defined in view_cache.c.
 hair_result hair_draw_ensure_view_cache(struct hair_renderer* renderer, struct hair_draw_plan* plan);
+// Free the buffers, and the place in the batch.
 void hair_draw_free_view_cache(struct hair_renderer* renderer);
 // Run the pass plan->shade, which writes the per-view vertices of the listed strands, or shades the
 // cached vertices. Bind the result. The inputs of drawing must be bound.
@@ -246,6 +251,15 @@ bool hair_draw_find_raster(const struct hair_renderer* renderer, const struct ha
 hair_result hair_draw_ensure_raster(struct hair_renderer* renderer, struct hair_draw_plan* plan);
 // Find the nearest segment at each sample. The inputs of drawing must be bound.
 void hair_draw_rasterise(struct hair_renderer* renderer, struct hair_draw_plan* plan);
+// Return the work groups that rasterise the segments of a view. Write the threads of a segment.
+uint32_t hair_draw_raster_groups(const struct hair_renderer* renderer, const hair_view* view,
+                                 struct hair_raster_params* params);
+// Make a buffer that holds `count` numbers. Leave some slack, so that hair that comes nearer does
+// not reallocate the buffer each time.
+hair_result hair_draw_ensure_numbers(struct hair_gl* gl, hair_gl_category category, const char* label,
+                                     size_t count, GLuint* buffer, size_t* room);
+// Draw lists of tiles by the commands at the beginning of a buffer, with the current program.
+void hair_draw_issue_tiles(struct hair_gl* gl, GLuint commands, uint32_t count);
 // Draw the rasterised samples into the framebuffer with the current program.
 void hair_draw_resolve_tiles(struct hair_renderer* renderer, const struct hair_draw_plan* plan);
 void hair_draw_free_raster(struct hair_renderer* renderer);

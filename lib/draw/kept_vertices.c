@@ -71,7 +71,9 @@ bool hair_draw_keep_vertices(struct hair_renderer* renderer, const struct hair_p
     HAIR_ASSERT(!plan->keeps_vertices);
     bool has_any = plan->is_computed && plan->vertices == HAIR_VERTICES_PER_VIEW &&
                    view->pass == HAIR_PASS_COLOR && !plan->shader && !hair_draw_uses_occlusion(view) &&
-                   renderer->view_cache.is_complete && key && key->runs == renderer->geometry->smooth.runs &&
+                   renderer->view_cache.is_complete &&
+                   renderer->view_cache.is_in_place == plan->is_of_batch && key &&
+                   key->runs == renderer->geometry->smooth.runs &&
                    key->program_generation == renderer->gl->program_generation;
     if (!has_any) return false;
     HAIR_ASSERT(view->lod && key->params.pixels_per_unit > 0);
@@ -79,6 +81,7 @@ bool hair_draw_keep_vertices(struct hair_renderer* renderer, const struct hair_p
     hair_draw_select_lod(renderer, to, plan);
     hair_draw_write_params(renderer, from, view, &now);
     now.textured = plan->is_textured;
+    now.strands_at = key->params.strands_at;
     move_view(view, from, to, &plan->moved_view);
     hair_mat4 matrix = hair_mat4_from_head(plan->moved_view.view, from);
     hair_vec3 middle = hair_draw_find_middle(renderer, from);

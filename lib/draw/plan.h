@@ -46,6 +46,7 @@ struct hair_draw_plan {
     // The view cache keeps the vertices of an earlier frame. `view` is then `moved_view`, the view
     // from the head of that frame.
     bool keeps_vertices;
+    bool is_of_batch; // The head is drawn with others, by hair_batch_draw().
     hair_view moved_view;
 
     // Written by hair_draw_prepare().

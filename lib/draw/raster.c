@@ -148,18 +148,15 @@ bool hair_draw_find_raster(const struct hair_renderer* renderer, const struct ha
     return true;
 }
 
-// Make a buffer that holds `count` numbers. Leave some slack, so that hair that comes nearer does
-// not reallocate the buffer each time.
-static hair_result ensure_room(struct hair_gl* gl, const char* label, size_t count, GLuint* buffer,
-                               size_t* room)
+hair_result hair_draw_ensure_numbers(struct hair_gl* gl, hair_gl_category category, const char* label,
+                                     size_t count, GLuint* buffer, size_t* room)
 {
     if (count <= *room) return HAIR_OK;
     size_t more = (count + count / 2 + 3) / 4 * 4;
     if (hair_gl_fits(gl, more * sizeof(uint32_t), sizeof(uint32_t))) count = more;
     hair_gl_free_buffer(gl, buffer);
     *room = 0;
-    hair_result result =
-        hair_gl_storage(gl, HAIR_GL_CATEGORY_COLOR, label, count * sizeof(uint32_t), NULL, buffer);
+    hair_result result = hair_gl_storage(gl, category, label, count * sizeof(uint32_t), NULL, buffer);
     if (!result) *room = count;
     return result;
 }
@@ -170,7 +167,8 @@ static hair_result ensure_tiles(struct hair_gl* gl, struct hair_raster* raster, 
     tiles += HAIR_TILE_FIRST;
     if (tiles <= raster->tile_room) return HAIR_OK;
     hair_gl_free_buffer_texture(gl, &raster->tile_texture);
-    hair_result result = ensure_room(gl, "hair tiles", tiles, &raster->tile, &raster->tile_room);
+    hair_result result = hair_draw_ensure_numbers(gl, HAIR_GL_CATEGORY_COLOR, "hair tiles", tiles,
+                                                  &raster->tile, &raster->tile_room);
     if (!result)
         result = hair_gl_buffer_texture(gl, "hair tiles", GL_R32UI, raster->tile, &raster->tile_texture);
     if (result) raster->tile_room = 0;
@@ -197,8 +195,8 @@ hair_result hair_draw_ensure_raster(struct hair_renderer* renderer, struct hair_
         result = hair_gl_uniform(gl, HAIR_GL_CATEGORY_COLOR, "hair raster", sizeof *params, &raster->params);
     if (!result) result = ensure_tiles(gl, raster, params->tiles);
     if (result) return result;
-    return ensure_room(gl, "hair nearest", count_numbers(params, plan->draw), &raster->nearest,
-                       &raster->room);
+    return hair_draw_ensure_numbers(gl, HAIR_GL_CATEGORY_COLOR, "hair nearest",
+                                    count_numbers(params, plan->draw), &raster->nearest, &raster->room);
 }
 
 void hair_draw_free_raster(struct hair_renderer* renderer)
@@ -213,6 +211,14 @@ void hair_draw_free_raster(struct hair_renderer* renderer)
 static uint32_t groups_for(uint64_t threads)
 {
     return (uint32_t)((threads + HAIR_GROUP_SIZE - 1) / HAIR_GROUP_SIZE);
+}
+
+uint32_t hair_draw_raster_groups(const struct hair_renderer* renderer, const hair_view* view,
+                                 struct hair_raster_params* params)
+{
+    uint64_t segments = estimate_segments(renderer, view);
+    params->split = split_segments(segments);
+    return groups_for(segments * params->split);
 }
 
 // Run one of the passes before the one that draws, with the features of that pass.
@@ -239,8 +245,7 @@ void hair_draw_rasterise(struct hair_renderer* renderer, struct hair_draw_plan* 
     GLuint buffers[] = {raster->nearest, raster->tile, renderer->strand_list.strand};
     size_t numbers = count_numbers(params, plan->draw);
     HAIR_ASSERT(raster->room >= numbers && raster->tile_room >= params->tiles + HAIR_TILE_FIRST);
-    uint64_t segments = estimate_segments(renderer, plan->view);
-    params->split = split_segments(segments);
+    uint32_t groups = hair_draw_raster_groups(renderer, plan->view, params);
     hair_gl_bind_texture(gl, HAIR_UNIT_TILE, raster->tile_texture);
     if (plan->depth_test.depth) {
         hair_gl_bind_texture(gl, HAIR_UNIT_OCCLUSION, plan->depth_test.depth);
@@ -252,27 +257,32 @@ void hair_draw_rasterise(struct hair_renderer* renderer, struct hair_draw_plan* 
     hair_gl_bind_buffers(gl, GL_SHADER_STORAGE_BUFFER, HAIR_BIND_COMMAND, 1, &renderer->strand_list.command);
     hair_gl_write_uniform(gl, raster->params, sizeof *params, params);
     run(gl, HAIR_GL_RASTER_CLEAR, plan, groups_for((numbers + 3) / 4));
-    run(gl, HAIR_GL_RASTER, plan, groups_for(segments * params->split));
+    run(gl, HAIR_GL_RASTER, plan, groups);
     if (!(plan->draw & HAIR_GL_WITH(DEPTH)) && !gl->long_atomics) {
         params->claims = 1;
         hair_gl_write_uniform(gl, raster->params, sizeof *params, params);
-        run(gl, HAIR_GL_RASTER, plan, groups_for(segments * params->split));
+        run(gl, HAIR_GL_RASTER, plan, groups);
     }
     run(gl, HAIR_GL_COMPOSE_TILES, plan, params->tiles);
+}
+
+void hair_draw_issue_tiles(struct hair_gl* gl, GLuint commands, uint32_t count)
+{
+    GLint mode[2] = {GL_FILL, GL_FILL};
+    gl->GetIntegerv(GL_POLYGON_MODE, mode);
+    if (mode[0] != GL_FILL) gl->PolygonMode(GL_FRONT_AND_BACK, GL_FILL);
+    gl->BindBuffer(GL_DRAW_INDIRECT_BUFFER, commands);
+    gl->MultiDrawArraysIndirect(GL_TRIANGLES, NULL, (GLsizei)count, 0);
+    if (mode[0] != GL_FILL) gl->PolygonMode(GL_FRONT_AND_BACK, (GLenum)mode[0]);
 }
 
 void hair_draw_resolve_tiles(struct hair_renderer* renderer, const struct hair_draw_plan* plan)
 {
     struct hair_gl* gl = renderer->gl;
     HAIR_ASSERT(plan->raster.tiles > 0);
-    GLint mode[2] = {GL_FILL, GL_FILL};
     // Opacity has been tested against depth before.
     bool tests_depth = plan->blending && gl->IsEnabled(GL_DEPTH_TEST);
-    gl->GetIntegerv(GL_POLYGON_MODE, mode);
-    if (mode[0] != GL_FILL) gl->PolygonMode(GL_FRONT_AND_BACK, GL_FILL);
     if (tests_depth) gl->Disable(GL_DEPTH_TEST);
-    gl->BindBuffer(GL_DRAW_INDIRECT_BUFFER, renderer->raster.tile);
-    gl->DrawArraysIndirect(GL_TRIANGLES, NULL);
+    hair_draw_issue_tiles(gl, renderer->raster.tile, 1);
     if (tests_depth) gl->Enable(GL_DEPTH_TEST);
-    if (mode[0] != GL_FILL) gl->PolygonMode(GL_FRONT_AND_BACK, (GLenum)mode[0]);
 }

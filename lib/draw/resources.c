@@ -136,7 +136,7 @@ static void find_needed(const struct hair_renderer* renderer, const struct hair_
     needed[HAIR_RESOURCE_STRAND_LIST] = plan->has_strand_list;
     needed[HAIR_RESOURCE_OCCLUSION] = plan->has_occlusion;
     needed[HAIR_RESOURCE_VERTEX_CACHE] = plan->vertices == HAIR_VERTICES_CACHED || is_lit;
-    needed[HAIR_RESOURCE_RASTER] = plan->is_computed && !plan->is_empty;
+    needed[HAIR_RESOURCE_RASTER] = plan->is_computed && !plan->is_empty && !plan->is_of_batch;
     needed[HAIR_RESOURCE_VIEW_CACHE] = is_per_view;
     needed[HAIR_RESOURCE_SHADED] = plan->shade && !is_per_view;
     needed[HAIR_RESOURCE_ROOT_UVS] = plan->has_root_uvs;

@@ -21,6 +21,7 @@ static hair_gl_pass find_features(const struct hair_renderer* renderer, const st
     else if (view->primitive == HAIR_PRIMITIVE_LINES)
         features |= HAIR_GL_WITH(LINES);
     if (view->lod) features |= HAIR_GL_WITH(WIDENED);
+    if (plan->is_of_batch) features |= HAIR_GL_WITH(BATCH);
     if (hair_lighting_is_blocked(view)) features |= HAIR_GL_WITH(OPAQUE_SHADOWS);
     if (plan->has_root_uvs) features |= HAIR_GL_WITH(ROOT_UV);
     if (plan->is_painted) features |= HAIR_GL_WITH(GROOM_COLORS);
@@ -120,8 +121,14 @@ static hair_result compile_state(struct hair_renderer* renderer, hair_gl_pass st
         hair_draw_find_passes(renderer, state | HAIR_GL_WITH(OCCLUSION), plan);
         HAIR_TRY(hair_draw_compile(renderer, plan));
     }
-    hair_draw_find_passes(renderer, state, plan);
-    return hair_draw_compile(renderer, plan);
+    // Lists may draw the view in a batch.
+    plan->is_of_batch = hair_batch_accepts(plan);
+    for (int i = plan->is_of_batch; i >= 0; --i) {
+        plan->is_of_batch = i > 0;
+        hair_draw_find_passes(renderer, state, plan);
+        HAIR_TRY(hair_draw_compile(renderer, plan));
+    }
+    return HAIR_OK;
 }
 
 hair_result hair_draw_precompile(struct hair_renderer* renderer, struct hair_draw_plan* plan,

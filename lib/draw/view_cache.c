@@ -29,6 +29,14 @@ static void free_part(struct hair_renderer* renderer, int part)
     own->size[part] = 0;
 }
 
+static void free_buffers(struct hair_renderer* renderer)
+{
+    struct hair_view_cache* own = &renderer->view_cache;
+    for (int i = 0; i < HAIR_VIEW_CACHE_PARTS; ++i) free_part(renderer, i);
+    own->room = own->spare = own->segments = 0;
+    own->is_complete &= own->is_in_place;
+}
+
 static hair_result ensure_part(struct hair_renderer* renderer, int part, size_t size)
 {
     struct hair_view_cache* own = &renderer->view_cache;
@@ -55,25 +63,25 @@ hair_result hair_draw_ensure_view_cache(struct hair_renderer* renderer, struct h
     struct hair_view_cache* own = &renderer->view_cache;
     uint32_t room = find_room(renderer, plan), segments = renderer->geometry->look.strand.segments;
     hair_result result = HAIR_OK;
+    if (plan->is_of_batch) return HAIR_OK;
     bool is_spare = hair_gl_count_spare(&own->spare, own->room / SHRINKS > room);
     if (own->segments != segments || own->room < room || is_spare) {
-        hair_draw_free_view_cache(renderer);
+        free_buffers(renderer);
         own->room = room;
         own->segments = segments;
     }
     size_t vertices = (size_t)own->room * (segments + 1);
     for (int i = 0; i < HAIR_VIEW_CACHE_PARTS && !result; ++i)
         result = ensure_part(renderer, i, size_of_part(plan, i, vertices));
-    if (result) hair_draw_free_view_cache(renderer);
+    if (result) free_buffers(renderer);
     return result;
 }
 
 void hair_draw_free_view_cache(struct hair_renderer* renderer)
 {
-    struct hair_view_cache* own = &renderer->view_cache;
-    for (int i = 0; i < HAIR_VIEW_CACHE_PARTS; ++i) free_part(renderer, i);
-    own->room = own->spare = own->segments = 0;
-    own->is_complete = false;
+    free_buffers(renderer);
+    hair_batch_leave_place(renderer->batch, &renderer->view_cache.place);
+    renderer->view_cache.is_complete = false;
 }
 
 // Bind the vertices of the listed strands in place of the vertex cache.
@@ -91,11 +99,14 @@ static void write_listed_vertices(struct hair_renderer* renderer, const struct h
 {
     struct hair_gl* gl = renderer->gl;
     struct hair_view_cache* view_cache = &renderer->view_cache;
-    HAIR_ASSERT(view_cache->buffer[HAIR_VIEW_CACHE_POSITION]);
+    HAIR_ASSERT(plan->is_of_batch ? view_cache->place.blocks : view_cache->buffer[HAIR_VIEW_CACHE_POSITION]);
     const GLuint list[] = {renderer->strand_list.strand, renderer->strand_list.command};
     hair_gl_bind_buffers(gl, GL_SHADER_STORAGE_BUFFER, HAIR_BIND_LISTED_STRAND, 2, list);
-    hair_gl_bind_buffers(gl, GL_SHADER_STORAGE_BUFFER, HAIR_BIND_CACHED_POSITION, HAIR_VIEW_CACHE_PARTS,
-                         view_cache->buffer);
+    if (plan->is_of_batch)
+        hair_batch_bind_place(renderer->batch, view_cache->place);
+    else
+        hair_gl_bind_buffers(gl, GL_SHADER_STORAGE_BUFFER, HAIR_BIND_CACHED_POSITION, HAIR_VIEW_CACHE_PARTS,
+                             view_cache->buffer);
     hair_gl_run_indirect(gl, plan->shade, plan->shade_program, renderer->strand_list.command,
                          HAIR_EXPAND_VIEW_COMMAND * sizeof(struct hair_draw_command));
     // Unbind the buffers before they can be deleted. Mesa unbinds a deleted buffer with
@@ -104,6 +115,7 @@ static void write_listed_vertices(struct hair_renderer* renderer, const struct h
                          NULL);
     view_cache->is_complete = plan->is_computed && plan->view->pass == HAIR_PASS_COLOR && !plan->shader &&
                               renderer->pixels_per_metre > 0;
+    view_cache->is_in_place = plan->is_of_batch;
     view_cache->pixels_per_metre = renderer->pixels_per_metre;
 }
 
@@ -130,5 +142,5 @@ void hair_draw_write_vertices(struct hair_renderer* renderer, const struct hair_
         return;
     }
     if (!plan->keeps_vertices) write_listed_vertices(renderer, plan);
-    bind_listed_vertices(renderer);
+    if (!plan->is_of_batch) bind_listed_vertices(renderer);
 }

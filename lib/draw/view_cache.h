@@ -9,6 +9,12 @@
 
 enum { HAIR_VIEW_CACHE_POSITION, HAIR_VIEW_CACHE_TANGENT, HAIR_VIEW_CACHE_SHADED, HAIR_VIEW_CACHE_PARTS };
 
+// Blocks of vertices in the buffers of a batch, see batch.h.
+struct hair_batch_place {
+    uint32_t first, blocks; // First block and number of blocks. 0 without a place.
+    uint32_t spare; // Number of views in sequence for which much less would do.
+};
+
 struct hair_view_cache {
     // Buffers, as at HAIR_BIND_CACHED_POSITION and the two bindings after it in shared.h. 0 until
     // needed.
@@ -18,6 +24,8 @@ struct hair_view_cache {
     uint32_t segments; // Segments of a strand.
     uint32_t room; // Capacity in strands.
     uint32_t spare; // Number of views in sequence for which much less would do.
+    struct hair_batch_place place;
+    bool is_in_place; // True if the vertices written last are in that place and not in `buffer`.
     bool is_complete; // True if all listed strands are written and shaded, for a computed view.
     float pixels_per_metre; // hair_renderer.pixels_per_metre of that view.
 };

@@ -48,14 +48,21 @@ void hair_gl_profiler_free(struct hair_gl* gl, struct hair_gl_profiler* profiler
     memset(profiler, 0, sizeof *profiler);
 }
 
+void hair_gl_profiler_count(struct hair_gl_profiler* profiler, hair_gl_pass pass)
+{
+    struct hair_gl_frame* frame = hair_gl_profiler_frame(profiler, profiler->number);
+    hair_gl_category category = category_of(pass);
+    HAIR_ASSERT(frame->number == profiler->number && frame->spans <= HAIR_GL_SPANS);
+    ++frame->runs[category];
+    frame->pass[category] = pass;
+}
+
 void hair_gl_profiler_begin(struct hair_gl* gl, hair_gl_pass pass)
 {
     if (!gl->profiler) return;
     struct hair_gl_frame* frame = hair_gl_profiler_frame(gl->profiler, gl->profiler->number);
     hair_gl_category category = category_of(pass);
-    HAIR_ASSERT(frame->number == gl->profiler->number && frame->spans <= HAIR_GL_SPANS);
-    ++frame->runs[category];
-    frame->pass[category] = pass;
+    hair_gl_profiler_count(gl->profiler, pass);
     int same = frame->spans > 0 && frame->category[frame->spans - 1] == category;
     frame->is_full |= !same && frame->spans == HAIR_GL_SPANS;
     if (!gl->timings || same || frame->is_full || hair_gl_is_recording(gl)) return;

@@ -38,6 +38,8 @@ static inline struct hair_gl_frame* hair_gl_profiler_frame(struct hair_gl_profil
     return &profiler->frame[number % HAIR_GL_FRAMES];
 }
 
+// Count a run of a pass that is not timed.
+void hair_gl_profiler_count(struct hair_gl_profiler* profiler, hair_gl_pass pass);
 // Begin a pass. Do nothing if gl->profiler is NULL.
 void hair_gl_profiler_begin(struct hair_gl* gl, hair_gl_pass pass);
 // End a pass.

@@ -81,6 +81,7 @@ FEATURE(MOTION, "HAIR_MOTION") // Velocities, in place of colour without MOTION_
 FEATURE(MOTION_OUTPUT, "HAIR_MOTION_OUTPUT") // Velocities beside colour.
 FEATURE(ALPHA_COVERAGE, "HAIR_ALPHA_COVERAGE") // Strands cover fractions of pixels.
 FEATURE(OPAQUE_SHADOWS, "HAIR_OPAQUE_SHADOWS") // Opaque geometry blocks lights.
+FEATURE(BATCH, "HAIR_BATCH") // Segments of many heads are rasterised together.
 FEATURE(SHADED, "HAIR_SHADED") // A compute pass has shaded the vertices.
 // Strands may be wider to compensate for strands that are left out.
 FEATURE(WIDENED, "HAIR_WIDENED")
@@ -103,7 +104,7 @@ FEATURE(OCCLUSION, "HAIR_OCCLUSION") // Occlusion culling may have hidden patche
 #define STAGE_FEATURES \
     WITH(DEPTH) | WITH(FIBRES) | STYLE_FEATURES | WITH(ROOT_UV) | WITH(GROOM_COLORS) | \
         WITH(OPAQUE_SHADOWS) | WITH(WIDENED) | WITH(HITS)
-#define RASTER_FEATURES WITH(DEPTH) | WITH(ALPHA_COVERAGE)
+#define RASTER_FEATURES WITH(DEPTH) | WITH(ALPHA_COVERAGE) | WITH(BATCH)
 #define DRAW_STAGES " !HAIR_LINES?draw/ribbon.geom !HAIR_DEPTH?draw/strand.frag HAIR_DEPTH?draw/depth.frag"
 
 PASS(VOXELISE, "field/voxelise", FIELD, 0, "field/voxelise.comp")

@@ -360,4 +360,17 @@ MUTATIONS = [
      "old": "hair_quat_multiply(to->rotation, hair_quat_conjugate(from->rotation));",
      "new": "hair_quat_multiply(from->rotation, hair_quat_conjugate(to->rotation));",
      "tests": ["gpu/pace"]},
+    # Heads that are drawn together
+    {"name": "batch_shares_one_place", "file": "lib/draw/batch_places.c",
+     "old": "return place.first * BLOCK;",
+     "new": "return 0 * place.first;",
+     "tests": ["gpu/batch"]},
+    {"name": "batch_blends", "file": "lib/draw/batch.c",
+     "old": "!gl->IsEnabled(GL_BLEND) &&",
+     "new": "true &&",
+     "tests": ["gpu/batch"]},
+    {"name": "batch_draws_stale_vertices", "file": "lib/draw/kept_vertices.c",
+     "old": "renderer->view_cache.is_in_place == plan->is_of_batch && key",
+     "new": "key",
+     "tests": ["gpu/batch"]},
 ]
