@@ -230,7 +230,7 @@ struct list_part {
 
 // Let the plans of a part be those of a batch that may be, unless their vertices are kept. A batch
 // has at least two heads.
-static void gather(struct list_part* part)
+static void find_batch(struct list_part* part)
 {
     uint32_t count = 0;
     for (uint32_t i = 0; i < part->drawn; ++i) count += hair_batch_accepts(&part->plan[i]);
@@ -313,9 +313,9 @@ static hair_result draw_all(struct list_part* part, const struct hair_view_copy*
         part->of[part->drawn++] = part->hair[i];
     }
     if (!part->drawn) return HAIR_OK;
-    gather(part);
+    find_batch(part);
     first = settle(part->of, part->plan, part->drawn);
-    gather(part);
+    find_batch(part);
     hair_enter_frame(part->of[0]);
     give_places(part);
     bool has_strands = !is_of_surroundings(view) && view->pass != HAIR_PASS_GUIDES;

@@ -107,7 +107,7 @@ static void rasterise(struct hair_batch* batch, const struct hair_draw_plan* pla
     run(gl, HAIR_GL_COMPOSE_TILES, plan, last->compose_end);
 }
 
-static void resolve(struct hair_batch* batch, const struct hair_draw_plan* plan)
+static void resolve_batch(struct hair_batch* batch, const struct hair_draw_plan* plan)
 {
     struct hair_gl* gl = batch->gl;
     struct hair_outputs outputs;
@@ -135,7 +135,7 @@ hair_result hair_batch_draw(struct hair_batch* batch, const struct hair_draw_pla
     hair_result result = ensure_buffers(batch, samples, last->first_tile + last->raster.tiles);
     if (!result) {
         rasterise(batch, plan, samples);
-        resolve(batch, plan);
+        resolve_batch(batch, plan);
     }
     batch->heads = 0;
     return result;

@@ -29,7 +29,7 @@ static void free_part(struct hair_renderer* renderer, int part)
     own->size[part] = 0;
 }
 
-static void free_buffers(struct hair_renderer* renderer)
+static void free_own_buffers(struct hair_renderer* renderer)
 {
     struct hair_view_cache* own = &renderer->view_cache;
     for (int i = 0; i < HAIR_VIEW_CACHE_PARTS; ++i) free_part(renderer, i);
@@ -66,20 +66,20 @@ hair_result hair_draw_ensure_view_cache(struct hair_renderer* renderer, struct h
     if (plan->is_of_batch) return HAIR_OK;
     bool is_spare = hair_gl_count_spare(&own->spare, own->room / SHRINKS > room);
     if (own->segments != segments || own->room < room || is_spare) {
-        free_buffers(renderer);
+        free_own_buffers(renderer);
         own->room = room;
         own->segments = segments;
     }
     size_t vertices = (size_t)own->room * (segments + 1);
     for (int i = 0; i < HAIR_VIEW_CACHE_PARTS && !result; ++i)
         result = ensure_part(renderer, i, size_of_part(plan, i, vertices));
-    if (result) free_buffers(renderer);
+    if (result) free_own_buffers(renderer);
     return result;
 }
 
 void hair_draw_free_view_cache(struct hair_renderer* renderer)
 {
-    free_buffers(renderer);
+    free_own_buffers(renderer);
     hair_batch_leave_place(renderer->batch, &renderer->view_cache.place);
     renderer->view_cache.is_complete = false;
 }
