@@ -42,33 +42,55 @@ bool hair_batch_join(struct hair_renderer* renderer, const struct hair_pose* hea
 void hair_batch_add(struct hair_renderer* renderer, const struct hair_draw_plan* plan)
 {
     struct hair_batch* batch = renderer->batch;
-    const struct hair_batch_head* last = batch->heads ? &batch->head[batch->heads - 1] : NULL;
-    HAIR_ASSERT(batch->heads < HAIR_BATCH_HEADS && renderer->view_cache.place.blocks &&
-                plan->raster.tiles > 0);
     const struct hair_batch_place place = renderer->view_cache.place;
+    HAIR_ASSERT(batch->heads < HAIR_BATCH_HEADS && place.blocks && plan->raster.tiles > 0);
     hair_mat4 view = hair_mat4_from_head(plan->view->view, plan->head);
     struct hair_batch_head own = {.raster = plan->raster,
                                   .eye = hair_draw_find_eye(&view, plan->view->projection),
                                   .segments = renderer->geometry->look.strand.segments,
                                   .first_vertex = hair_batch_first_vertex(place)};
     own.strands_at = own.first_vertex + hair_batch_count_vertices(place) - 1;
-    if (last) {
-        own.first_sample =
-            last->first_sample + last->raster.columns * last->raster.rows * last->raster.samples;
-        own.first_tile = last->first_tile + last->raster.tiles;
-        own.raster_end = last->raster_end;
-        own.compose_end = last->compose_end;
-    }
-    own.raster_end += hair_draw_raster_groups(renderer, plan->view, &own.raster);
-    own.compose_end += own.raster.tiles;
+    own.raster_end = hair_draw_raster_groups(renderer, plan->view, &own.raster);
+    own.compose_end = own.raster.tiles;
     batch->head[batch->heads++] = own;
 }
 
-static hair_result ensure_buffers(struct hair_batch* batch, size_t samples, size_t tiles)
+// Heads of a batch whose samples fit into one buffer.
+struct part {
+    struct hair_batch_head* head;
+    uint32_t heads;
+    size_t samples, tiles;
+};
+
+// Return the part that begins with a head, and has at least that head. Count what the heads before
+// each head of the part take.
+static struct part find_part(const struct hair_batch* batch, uint32_t first)
+{
+    struct part part = {.head = &batch->head[first]};
+    for (uint32_t i = first; i < batch->heads; ++i) {
+        struct hair_batch_head* own = &batch->head[i];
+        size_t samples = (size_t)own->raster.columns * own->raster.rows * own->raster.samples;
+        if (part.heads && part.samples + samples > batch->max_samples) break;
+        own->first_sample = (hair_uint)part.samples;
+        own->first_tile = (hair_uint)part.tiles;
+        own->raster_end += part.heads ? own[-1].raster_end : 0;
+        own->compose_end += part.heads ? own[-1].compose_end : 0;
+        part.samples += samples;
+        part.tiles += own->raster.tiles;
+        ++part.heads;
+    }
+    for (uint32_t i = 0; i < part.heads; ++i) {
+        part.head[i].heads = part.heads;
+        part.head[i].samples = (hair_uint)part.samples;
+    }
+    return part;
+}
+
+static hair_result ensure_buffers(struct hair_batch* batch, const struct part* part)
 {
     struct hair_gl* gl = batch->gl;
     size_t size = HAIR_BATCH_HEADS * sizeof *batch->head;
-    tiles += HAIR_BATCH_HEADS * HAIR_TILE_FIRST;
+    size_t tiles = part->tiles + HAIR_BATCH_HEADS * HAIR_TILE_FIRST;
     if (!batch->params)
         HAIR_TRY(hair_gl_uniform(gl, HAIR_GL_NO_CATEGORY, "hair batch", size, &batch->params));
     if (tiles > batch->tile_room) hair_gl_free_buffer_texture(gl, &batch->tile_texture);
@@ -76,38 +98,34 @@ static hair_result ensure_buffers(struct hair_batch* batch, size_t samples, size
                                       &batch->tile_room));
     if (!batch->tile_texture)
         HAIR_TRY(hair_gl_buffer_texture(gl, "hair batch tiles", GL_R32UI, batch->tile, &batch->tile_texture));
-    return hair_draw_ensure_numbers(gl, HAIR_GL_NO_CATEGORY, "hair batch samples", 2 * samples,
+    return hair_draw_ensure_numbers(gl, HAIR_GL_NO_CATEGORY, "hair batch samples", 2 * part->samples,
                                     &batch->nearest, &batch->nearest_room);
 }
 
-static void run(struct hair_gl* gl, hair_gl_pass row, const struct hair_draw_plan* plan, uint64_t groups)
-{
-    hair_gl_run(gl, hair_gl_add_features(row, plan->features), (uint32_t)groups);
-}
-
-static void rasterise(struct hair_batch* batch, const struct hair_draw_plan* plan, size_t samples)
+static void rasterise_heads(struct hair_batch* batch, const struct hair_draw_plan* plan, struct part* part)
 {
     struct hair_gl* gl = batch->gl;
-    const struct hair_batch_head* last = &batch->head[batch->heads - 1];
-    const GLuint buffers[] = {batch->nearest, batch->tile},
-                 vertices[] = {batch->vertices[0], batch->vertices[1]};
-    size_t size = batch->heads * sizeof *batch->head;
+    const struct hair_batch_head* last = &part->head[part->heads - 1];
+    const GLuint buffers[] = {batch->nearest, batch->tile};
+    size_t size = part->heads * sizeof *part->head;
+    uint32_t numbers = (uint32_t)(2 * part->samples), heads = HAIR_BATCH_HEADS * HAIR_TILE_FIRST;
+    uint32_t threads = (numbers + 3) / 4 > heads ? (numbers + 3) / 4 : heads;
     hair_gl_bind_buffers(gl, GL_SHADER_STORAGE_BUFFER, HAIR_BIND_NEAREST, 2, buffers);
     hair_gl_bind_buffers(gl, GL_SHADER_STORAGE_BUFFER, HAIR_BIND_BATCH, 1, &batch->params);
-    hair_gl_bind_buffers(gl, GL_SHADER_STORAGE_BUFFER, HAIR_BIND_RIBBON_POSITION, 2, vertices);
-    hair_gl_write_uniform(gl, batch->params, size, batch->head);
-    run(gl, HAIR_GL_RASTER_CLEAR, plan,
-        (2 * samples / 4 + HAIR_GROUP_SIZE) / HAIR_GROUP_SIZE + HAIR_TILE_FIRST);
-    run(gl, HAIR_GL_RASTER, plan, last->raster_end);
+    hair_gl_bind_buffers(gl, GL_SHADER_STORAGE_BUFFER, HAIR_BIND_RIBBON_POSITION, 2, batch->vertices);
+    hair_gl_write_uniform(gl, batch->params, size, part->head);
+    hair_gl_barrier(gl, GL_SHADER_STORAGE_BARRIER_BIT); // Pixels drawn last may still be read.
+    hair_draw_run(gl, HAIR_GL_RASTER_CLEAR, plan, (threads + HAIR_GROUP_SIZE - 1) / HAIR_GROUP_SIZE);
+    hair_draw_run(gl, HAIR_GL_RASTER, plan, last->raster_end);
     if (!gl->long_atomics) {
-        for (uint32_t i = 0; i < batch->heads; ++i) batch->head[i].raster.claims = 1;
-        hair_gl_write_uniform(gl, batch->params, size, batch->head);
-        run(gl, HAIR_GL_RASTER, plan, last->raster_end);
+        for (uint32_t i = 0; i < part->heads; ++i) part->head[i].raster.claims = 1;
+        hair_gl_write_uniform(gl, batch->params, size, part->head);
+        hair_draw_run(gl, HAIR_GL_RASTER, plan, last->raster_end);
     }
-    run(gl, HAIR_GL_COMPOSE_TILES, plan, last->compose_end);
+    hair_draw_run(gl, HAIR_GL_COMPOSE_TILES, plan, last->compose_end);
 }
 
-static void resolve_batch(struct hair_batch* batch, const struct hair_draw_plan* plan)
+static void resolve_heads(struct hair_batch* batch, const struct hair_draw_plan* plan, uint32_t heads)
 {
     struct hair_gl* gl = batch->gl;
     struct hair_outputs outputs;
@@ -117,25 +135,21 @@ static void resolve_batch(struct hair_batch* batch, const struct hair_draw_plan*
     hair_gl_bind_texture(gl, HAIR_UNIT_TILE, batch->tile_texture);
     hair_gl_bind_texture(gl, HAIR_UNIT_SHADED, batch->shaded_texture);
     hair_draw_begin_outputs(gl, hair_draw_find_outputs(gl, plan), &outputs);
-    hair_draw_issue_tiles(gl, batch->tile, batch->heads);
+    hair_draw_issue_tiles(gl, batch->tile, heads);
     hair_draw_end_outputs(gl, &outputs);
     hair_gl_end(gl, plan->draw);
 }
 
 hair_result hair_batch_draw(struct hair_batch* batch, const struct hair_draw_plan* plan)
 {
-    if (!batch->heads) return HAIR_OK;
-    const struct hair_batch_head* last = &batch->head[batch->heads - 1];
-    size_t samples =
-        (size_t)last->first_sample + (size_t)last->raster.columns * last->raster.rows * last->raster.samples;
-    for (uint32_t i = 0; i < batch->heads; ++i) {
-        batch->head[i].heads = batch->heads;
-        batch->head[i].samples = (hair_uint)samples;
-    }
-    hair_result result = ensure_buffers(batch, samples, last->first_tile + last->raster.tiles);
-    if (!result) {
-        rasterise(batch, plan, samples);
-        resolve_batch(batch, plan);
+    hair_result result = HAIR_OK;
+    for (uint32_t first = 0; first < batch->heads && !result;) {
+        struct part part = find_part(batch, first);
+        result = ensure_buffers(batch, &part);
+        if (result) break;
+        rasterise_heads(batch, plan, &part);
+        resolve_heads(batch, plan, part.heads);
+        first += part.heads;
     }
     batch->heads = 0;
     return result;

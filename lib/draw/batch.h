@@ -20,6 +20,7 @@ struct hair_batch {
     bool* is_taken; // True for each block that a head has.
     struct hair_batch_head* head; // Heads that are drawn next, with room for HAIR_BATCH_HEADS.
     uint32_t heads;
+    size_t max_samples; // Maximum samples of heads that are drawn at once, unless one has more.
     GLuint params, nearest, tile; // Buffers, as in shared.h. 0 until needed.
     GLuint tile_texture; // Buffer texture of `tile`.
     size_t nearest_room, tile_room; // Capacities in numbers.

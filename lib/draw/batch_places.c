@@ -5,6 +5,7 @@
 
 #define BLOCK 4096u // Vertices of a block. Parts of buffers begin at multiples of 256 bytes.
 #define MIN_BLOCKS 64u // Blocks that there is memory for at first.
+#define MAX_SAMPLES 16000000u
 #define SHRINKS 3 // Heads get new places once many views in turn need less than a third of them.
 
 static const size_t size_of_vertex[HAIR_VIEW_CACHE_PARTS] = {[HAIR_VIEW_CACHE_POSITION] = sizeof(hair_vec4),
@@ -15,6 +16,7 @@ void hair_batch_init(struct hair_batch* batch, struct hair_gl* gl)
 {
     memset(batch, 0, sizeof *batch);
     batch->gl = gl;
+    batch->max_samples = MAX_SAMPLES;
 }
 
 static void free_vertices(struct hair_batch* batch)

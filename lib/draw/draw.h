@@ -258,6 +258,8 @@ uint32_t hair_draw_raster_groups(const struct hair_renderer* renderer, const hai
 // not reallocate the buffer each time.
 hair_result hair_draw_ensure_numbers(struct hair_gl* gl, hair_gl_category category, const char* label,
                                      size_t count, GLuint* buffer, size_t* room);
+// Run a pass before the one that draws, with its features of a plan.
+void hair_draw_run(struct hair_gl* gl, hair_gl_pass row, const struct hair_draw_plan* plan, uint32_t groups);
 // Draw lists of tiles by the commands at the beginning of a buffer, with the current program.
 void hair_draw_issue_tiles(struct hair_gl* gl, GLuint commands, uint32_t count);
 // Draw the rasterised samples into the framebuffer with the current program.

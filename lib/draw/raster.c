@@ -221,8 +221,7 @@ uint32_t hair_draw_raster_groups(const struct hair_renderer* renderer, const hai
     return groups_for(segments * params->split);
 }
 
-// Run one of the passes before the one that draws, with the features of that pass.
-static void run(struct hair_gl* gl, hair_gl_pass row, const struct hair_draw_plan* plan, uint32_t groups)
+void hair_draw_run(struct hair_gl* gl, hair_gl_pass row, const struct hair_draw_plan* plan, uint32_t groups)
 {
     hair_gl_run(gl, hair_gl_add_features(row, plan->features), groups);
 }
@@ -256,14 +255,14 @@ void hair_draw_rasterise(struct hair_renderer* renderer, struct hair_draw_plan* 
     bind_ribbons(renderer, plan);
     hair_gl_bind_buffers(gl, GL_SHADER_STORAGE_BUFFER, HAIR_BIND_COMMAND, 1, &renderer->strand_list.command);
     hair_gl_write_uniform(gl, raster->params, sizeof *params, params);
-    run(gl, HAIR_GL_RASTER_CLEAR, plan, groups_for((numbers + 3) / 4));
-    run(gl, HAIR_GL_RASTER, plan, groups);
+    hair_draw_run(gl, HAIR_GL_RASTER_CLEAR, plan, groups_for((numbers + 3) / 4));
+    hair_draw_run(gl, HAIR_GL_RASTER, plan, groups);
     if (!(plan->draw & HAIR_GL_WITH(DEPTH)) && !gl->long_atomics) {
         params->claims = 1;
         hair_gl_write_uniform(gl, raster->params, sizeof *params, params);
-        run(gl, HAIR_GL_RASTER, plan, groups);
+        hair_draw_run(gl, HAIR_GL_RASTER, plan, groups);
     }
-    run(gl, HAIR_GL_COMPOSE_TILES, plan, params->tiles);
+    hair_draw_run(gl, HAIR_GL_COMPOSE_TILES, plan, params->tiles);
 }
 
 void hair_draw_issue_tiles(struct hair_gl* gl, GLuint commands, uint32_t count)

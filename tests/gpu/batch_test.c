@@ -135,14 +135,28 @@ static void check_pixels(void** state, GLsizei samples)
     finish(&scene);
 }
 
-static void batchs_have_the_pixels_of_single_draws(void** state)
+static void batches_have_the_pixels_of_single_draws(void** state)
 {
     check_pixels(state, 0);
 }
 
-static void batchs_have_the_samples_of_single_draws(void** state)
+static void batches_have_the_samples_of_single_draws(void** state)
 {
     check_pixels(state, 4);
+}
+
+// Heads whose samples do not fit into one buffer are drawn in parts.
+static void parts_of_batches_have_the_same_pixels(void** state)
+{
+    struct batch_scene scene;
+    start(state, 0, &scene);
+    step(&scene, 1);
+    scene.test->context->batch.max_samples = 1;
+    assert_true(compare(&scene) > 0.05);
+    scene.test->context->batch.max_samples = SIDE * SIDE;
+    assert_true(compare(&scene) > 0.05);
+    assert_int_equal(count_places(&scene), HEADS);
+    finish(&scene);
 }
 
 // Heads of different sizes come and go, and need larger places.
@@ -232,8 +246,11 @@ int main(void)
 {
     if (hair_test_skips()) return 0;
     const struct CMUnitTest tests[] = {
-        HAIR_TEST(batchs_have_the_pixels_of_single_draws), HAIR_TEST(batchs_have_the_samples_of_single_draws),
-        HAIR_TEST(places_follow_the_size_of_heads),        HAIR_TEST(waiting_heads_keep_their_places),
+        HAIR_TEST(batches_have_the_pixels_of_single_draws),
+        HAIR_TEST(batches_have_the_samples_of_single_draws),
+        HAIR_TEST(parts_of_batches_have_the_same_pixels),
+        HAIR_TEST(places_follow_the_size_of_heads),
+        HAIR_TEST(waiting_heads_keep_their_places),
         HAIR_TEST(ordered_heads_are_drawn_one_by_one),
     };
     return cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);
