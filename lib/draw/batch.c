@@ -114,7 +114,6 @@ static void rasterise_heads(struct hair_batch* batch, const struct hair_draw_pla
     hair_gl_bind_buffers(gl, GL_SHADER_STORAGE_BUFFER, HAIR_BIND_BATCH, 1, &batch->params);
     hair_gl_bind_buffers(gl, GL_SHADER_STORAGE_BUFFER, HAIR_BIND_RIBBON_POSITION, 2, batch->vertices);
     hair_gl_write_uniform(gl, batch->params, size, part->head);
-    hair_gl_barrier(gl, GL_SHADER_STORAGE_BARRIER_BIT); // Pixels drawn last may still be read.
     hair_draw_run(gl, HAIR_GL_RASTER_CLEAR, plan, (threads + HAIR_GROUP_SIZE - 1) / HAIR_GROUP_SIZE);
     hair_draw_run(gl, HAIR_GL_RASTER, plan, last->raster_end);
     if (!gl->long_atomics) {
@@ -145,6 +144,7 @@ hair_result hair_batch_draw(struct hair_batch* batch, const struct hair_draw_pla
     hair_result result = HAIR_OK;
     for (uint32_t first = 0; first < batch->heads && !result;) {
         struct part part = find_part(batch, first);
+        hair_gl_barrier(batch->gl, GL_SHADER_STORAGE_BARRIER_BIT); // The last draw may still read.
         result = ensure_buffers(batch, &part);
         if (result) break;
         rasterise_heads(batch, plan, &part);

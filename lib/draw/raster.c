@@ -254,6 +254,8 @@ void hair_draw_rasterise(struct hair_renderer* renderer, struct hair_draw_plan* 
     hair_gl_bind_buffers(gl, GL_SHADER_STORAGE_BUFFER, HAIR_BIND_NEAREST, 3, buffers);
     bind_ribbons(renderer, plan);
     hair_gl_bind_buffers(gl, GL_SHADER_STORAGE_BUFFER, HAIR_BIND_COMMAND, 1, &renderer->strand_list.command);
+    // No pass over vertices separates this draw from the one before, which may still read.
+    if (plan->keeps_vertices) hair_gl_barrier(gl, GL_SHADER_STORAGE_BARRIER_BIT);
     hair_gl_write_uniform(gl, raster->params, sizeof *params, params);
     hair_draw_run(gl, HAIR_GL_RASTER_CLEAR, plan, groups_for((numbers + 3) / 4));
     hair_draw_run(gl, HAIR_GL_RASTER, plan, groups);
