@@ -1,6 +1,6 @@
 // expand.comp - the vertex cache of followers, segments + 1 vertices each, to be drawn or read
-// back. It has all followers with HAIR_EVERY_FOLLOWER, and otherwise those that a view draws. Work
-// groups are those of strands/vertex_range.glsl.
+// back. It has all followers with HAIR_EVERY_FOLLOWER, and otherwise those that a view draws. Light
+// needs no tangents (HAIR_POSITIONS). Work groups are those of strands/vertex_range.glsl.
 #version 450 core
 #include "strands/evaluate.glsl"
 #include "strands/vertex_range.glsl"
@@ -11,10 +11,12 @@ layout(std430, binding = HAIR_BIND_CACHED_POSITION) writeonly restrict buffer ca
 {
     vec4 expanded[];
 };
+#ifndef HAIR_POSITIONS
 layout(std430, binding = HAIR_BIND_CACHED_TANGENT) writeonly restrict buffer cached_tangent_buffer
 {
     uvec2 cached_tangent[];
 };
+#endif
 
 void main()
 {
@@ -23,7 +25,9 @@ void main()
     for (uint i = run.first; i < run.end; i += run.stride) {
         hair_point point =
             evaluate(fetch_follower(i / each), i / each, float(i % each) / float(draw.segments));
-        expanded[i]         = vec4(point.position, point.radius);
+        expanded[i] = vec4(point.position, point.radius);
+#ifndef HAIR_POSITIONS
         cached_tangent[i] = pack_tangent(point.tangent);
+#endif
     }
 }

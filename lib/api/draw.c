@@ -246,6 +246,7 @@ static void give_places(struct list_part* part)
     for (uint32_t i = 0; i < part->drawn; ++i) {
         hair_instance* hair = part->of[i];
         struct hair_draw_plan* plan = &part->plan[i];
+        update_attachment(hair); // The size of a place depends on it.
         if (plan->is_of_batch && !plan->keeps_vertices)
             plan->is_of_batch = hair_batch_join(&hair->renderer, &hair->sim.head_at_last_step, plan);
     }

@@ -174,7 +174,7 @@ PASS(DISPLACE, "strands/displace", SMOOTH, 0, "strands/displace.comp")
 PASS(EXPAND, "strands/expand", EXPAND, WITH(HITS) | STYLE_FEATURES,
      "HAIR_EVERY_FOLLOWER=1 strands/expand.comp")
 PASS(EXPAND_DRAWN, "strands/expand_drawn", EXPAND, WITH(HITS) | STYLE_FEATURES,
-     "strands/expand.comp")
+     "HAIR_POSITIONS=1 strands/expand.comp")
 PASS(HIT, "strands/hit", HIT, STYLE_FEATURES, "HAIR_FINDS_HITS=1 strands/hit.comp")
 PASS(HIT_GROUP, "strands/hit_group", HIT, STYLE_FEATURES,
      "HAIR_FINDS_HITS=1 HAIR_HIT_GROUP=1 strands/hit.comp")

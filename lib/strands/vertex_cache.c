@@ -4,17 +4,19 @@
 
 #include <math.h>
 
-static hair_result ensure_cache_buffers(struct hair_geometry* geometry)
+// Make the buffers of the cache. Light needs no tangents.
+static hair_result ensure_cache_buffers(struct hair_geometry* geometry, bool is_for_light)
 {
     struct hair_gl* gl = geometry->gl;
     struct hair_vertex_cache* own = &geometry->vertex_cache;
     size_t vertices = hair_geometry_count_vertices(geometry);
-    if (own->vertices == vertices) return HAIR_OK;
-    hair_geometry_free_vertex_cache(geometry);
+    if (own->vertices != vertices) hair_geometry_free_vertex_cache(geometry);
+    if (hair_gl_count_spare(&own->spare, is_for_light && own->tangent && !own->is_complete))
+        hair_gl_free_array(gl, &own->tangent, &own->tangent_texture);
     hair_result result =
         hair_gl_ensure_array(gl, HAIR_GL_CATEGORY_EXPAND, "hair vertex cache", vertices * sizeof(hair_vec4),
                              &own->position, GL_RGBA32F, &own->position_texture);
-    if (!result)
+    if (!result && !is_for_light)
         result = hair_gl_ensure_array(gl, HAIR_GL_CATEGORY_EXPAND, "hair vertex cache tangents", vertices * 8,
                                       &own->tangent, GL_RGBA16, &own->tangent_texture);
     if (result)
@@ -73,7 +75,7 @@ hair_result hair_geometry_ensure_vertex_cache(struct hair_geometry* geometry,
     struct hair_gl* gl = geometry->gl;
     struct hair_vertex_cache* vertex_cache = &geometry->vertex_cache;
     hair_gl_pass pass = hair_geometry_choose_variant(geometry, drawn ? HAIR_GL_EXPAND_DRAWN : HAIR_GL_EXPAND);
-    hair_result result = ensure_cache_buffers(geometry);
+    hair_result result = ensure_cache_buffers(geometry, drawn != NULL);
     if (!result) result = hair_gl_ensure_program(gl, pass);
     if (result || is_fresh(geometry)) return result;
     struct hair_draw_params params;
@@ -85,7 +87,7 @@ hair_result hair_geometry_ensure_vertex_cache(struct hair_geometry* geometry,
     hair_geometry_bind(geometry);
     hair_geometry_save_history(geometry);
     HAIR_ASSERT(vertex_cache->vertices == hair_geometry_count_vertices(geometry) && params.chunks > 0);
-    GLuint buffers[] = {vertex_cache->position, vertex_cache->tangent};
+    const GLuint buffers[] = {vertex_cache->position, drawn ? 0 : vertex_cache->tangent};
     hair_gl_bind_buffers(gl, GL_SHADER_STORAGE_BUFFER, HAIR_BIND_CACHED_POSITION, 2, buffers);
     hair_gl_run(gl, pass, geometry->patches * params.chunks);
     // Unbind the buffers before they can be deleted. Mesa unbinds a deleted buffer with

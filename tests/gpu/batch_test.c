@@ -55,10 +55,11 @@ static hair_instance* make_head(const struct batch_scene* scene, uint32_t head)
     return hair;
 }
 
-static void start(void** state, GLsizei samples, struct batch_scene* out)
+static void start_with(void** state, GLsizei samples, const struct hair_test_handmade* groom,
+                       struct batch_scene* out)
 {
     *out = (struct batch_scene){.test = *state, .lod = hair_lod_default(), .view = hair_view_default()};
-    out->groom = hair_test_groom(&out->test->host.host, hair_test_handmade_default());
+    out->groom = hair_test_groom(&out->test->host.host, *groom);
     for (uint32_t i = 0; i < HEADS; ++i) {
         out->listed[i] = make_head(out, i);
         out->single[i] = make_head(out, i);
@@ -68,6 +69,12 @@ static void start(void** state, GLsizei samples, struct batch_scene* out)
     out->view.light_count = 1;
     hair_test_set_perspective(&out->view, 2, 1);
     out->view.view[14] = -0.6f;
+}
+
+static void start(void** state, GLsizei samples, struct batch_scene* out)
+{
+    const struct hair_test_handmade groom = hair_test_handmade_default();
+    start_with(state, samples, &groom, out);
 }
 
 static void finish(struct batch_scene* scene)
@@ -156,6 +163,23 @@ static void parts_of_batches_have_the_same_pixels(void** state)
     scene.test->context->batch.max_samples = SIDE * SIDE;
     assert_true(compare(&scene) > 0.05);
     assert_int_equal(count_places(&scene), HEADS);
+    finish(&scene);
+}
+
+// Far heads have their places from the first frame on, and no buffers of their own.
+static void far_heads_need_no_buffers_of_their_own(void** state)
+{
+    struct batch_scene scene;
+    struct hair_test_handmade many = hair_test_handmade_default();
+    many.followers = 20000;
+    many.each = 250;
+    start_with(state, 0, &many, &scene);
+    scene.view.view[14] = -80;
+    compare(&scene);
+    for (uint32_t i = 0; i < HEADS; ++i) {
+        assert_int_equal(scene.listed[i]->renderer.view_cache.room, 0);
+        assert_int_equal(scene.listed[i]->renderer.raster.room, 0);
+    }
     finish(&scene);
 }
 
@@ -249,6 +273,7 @@ int main(void)
         HAIR_TEST(batches_have_the_pixels_of_single_draws),
         HAIR_TEST(batches_have_the_samples_of_single_draws),
         HAIR_TEST(parts_of_batches_have_the_same_pixels),
+        HAIR_TEST(far_heads_need_no_buffers_of_their_own),
         HAIR_TEST(places_follow_the_size_of_heads),
         HAIR_TEST(waiting_heads_keep_their_places),
         HAIR_TEST(ordered_heads_are_drawn_one_by_one),

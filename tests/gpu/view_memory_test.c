@@ -137,6 +137,34 @@ static struct hair_test_scene make_lit_scene(struct hair_test* test, const hair_
     return scene;
 }
 
+// Tangents are only made for views that draw the vertex cache.
+static void light_makes_no_tangents(void** state)
+{
+    hair_lod lod = hair_lod_default();
+    struct hair_test_scene scene = make_lit_scene(*state, &lod);
+    const struct hair_vertex_cache* cache = &scene.hair->geometry.vertex_cache;
+    double before[4], after[4];
+    scene.view.light_count = 1;
+    set_away(&scene, 2);
+    draw(&scene);
+    assert_true(cache->position && !cache->tangent);
+    scene.view.lod = NULL;
+    draw(&scene);
+    read_mean(&scene, before);
+    assert_true(before[3] > 0 && cache->tangent);
+    scene.view.lod = &lod;
+    for (int i = 0; i < 80; ++i) {
+        hair_test_ok(scene.test, hair_set_look(scene.hair, &scene.hair->look));
+        draw(&scene);
+    }
+    assert_true(cache->position && !cache->tangent);
+    scene.view.lod = NULL;
+    draw(&scene);
+    read_mean(&scene, after);
+    for (int k = 0; k < 4; ++k) assert_true(fabs(after[k] - before[k]) < 1e-6);
+    hair_test_scene_free(&scene);
+}
+
 static void far_field_has_fewer_voxels_and_the_same_light(void** state)
 {
     hair_lod lod = hair_lod_default();
@@ -188,9 +216,9 @@ static void near_view_after_a_far_view_is_pushed_out(void** state)
 int main(void)
 {
     if (hair_test_skips()) return 0;
-    const struct CMUnitTest tests[] = {HAIR_TEST(views_never_list_more_strands_than_fit),
-                                       HAIR_TEST(memory_follows_the_distance),
-                                       HAIR_TEST(far_field_has_fewer_voxels_and_the_same_light),
-                                       HAIR_TEST(near_view_after_a_far_view_is_pushed_out)};
+    const struct CMUnitTest tests[] = {
+        HAIR_TEST(views_never_list_more_strands_than_fit), HAIR_TEST(memory_follows_the_distance),
+        HAIR_TEST(light_makes_no_tangents), HAIR_TEST(far_field_has_fewer_voxels_and_the_same_light),
+        HAIR_TEST(near_view_after_a_far_view_is_pushed_out)};
     return cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);
 }
