@@ -246,10 +246,16 @@ static void give_places(struct list_part* part)
     for (uint32_t i = 0; i < part->drawn; ++i) {
         hair_instance* hair = part->of[i];
         struct hair_draw_plan* plan = &part->plan[i];
+        if (!plan->is_of_batch || plan->keeps_vertices) continue;
         update_attachment(hair); // The size of a place depends on it.
-        if (plan->is_of_batch && !plan->keeps_vertices)
-            plan->is_of_batch = hair_batch_join(&hair->renderer, &hair->sim.head_at_last_step, plan);
+        plan->is_of_batch = hair_batch_join(&hair->renderer, &hair->sim.head_at_last_step, plan);
     }
+}
+
+// Return whether an instance of a part is ready to be drawn with the batch.
+static bool is_in_batch(const struct list_part* part, uint32_t i)
+{
+    return part->plan[i].is_of_batch && !part->result[i] && !part->plan[i].is_empty;
 }
 
 // Draw the batch. Its passes are timed for no instance.
@@ -257,12 +263,12 @@ static void draw_batch(struct hair_gl* gl, struct list_part* part)
 {
     const struct hair_draw_plan* any = NULL;
     for (uint32_t i = 0; i < part->drawn; ++i)
-        if (part->plan[i].is_of_batch && !part->result[i] && !part->plan[i].is_empty) any = &part->plan[i];
+        if (is_in_batch(part, i)) any = &part->plan[i];
     if (!any) return;
     hair_gl_set_owner(gl, NULL, NULL);
     hair_result result = hair_batch_draw(&part->of[0]->context->batch, any);
     for (uint32_t i = 0; i < part->drawn; ++i) {
-        if (!part->plan[i].is_of_batch || part->result[i] || part->plan[i].is_empty) continue;
+        if (!is_in_batch(part, i)) continue;
         part->result[i] = result;
         if (!result) hair_gl_profiler_count(&part->of[i]->profiler, any->draw);
     }

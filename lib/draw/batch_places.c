@@ -5,7 +5,7 @@
 
 #define BLOCK 4096u // Vertices of a block. Parts of buffers begin at multiples of 256 bytes.
 #define MIN_BLOCKS 64u // Blocks that there is memory for at first.
-#define MAX_SAMPLES 16000000u
+#define MAX_SAMPLES 16000000u // Samples that are drawn at once, of 8 bytes each.
 #define SHRINKS 3 // Heads get new places once many views in turn need less than a third of them.
 
 static const size_t size_of_vertex[HAIR_VIEW_CACHE_PARTS] = {[HAIR_VIEW_CACHE_POSITION] = sizeof(hair_vec4),

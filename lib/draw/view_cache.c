@@ -60,10 +60,10 @@ static uint32_t find_room(const struct hair_renderer* renderer, const struct hai
 
 hair_result hair_draw_ensure_view_cache(struct hair_renderer* renderer, struct hair_draw_plan* plan)
 {
+    if (plan->is_of_batch) return HAIR_OK; // It has a place, see hair_batch_join().
     struct hair_view_cache* own = &renderer->view_cache;
     uint32_t room = find_room(renderer, plan), segments = renderer->geometry->look.strand.segments;
     hair_result result = HAIR_OK;
-    if (plan->is_of_batch) return HAIR_OK;
     bool is_spare = hair_gl_count_spare(&own->spare, own->room / SHRINKS > room);
     if (own->segments != segments || own->room < room || is_spare) {
         free_own_buffers(renderer);
