@@ -100,7 +100,7 @@ examples: $(EXAMPLES) ## The programs of tools/examples/, in build/$(config)/exa
 demo: setup ## The main job: build/demo.png and build/demo.mp4, a head of hair in motion
 	@$(MAKE) -j$(JOBS) $(B)/hair-capture
 	$(B)/hair-capture --scene demo --guides 300 --frames 30:31 --size 1280x720 --supersample 4 --followers 70000 --set strand.radius=6.5e-5 -o build/demo.png
-	$(B)/hair-capture --scene demo --frames 0:96 --fps 24 --size 1280x720 --samples 1 --supersample 2 --set coverage=alpha --set strand.segments=16 -o build/demo.mp4
+	$(B)/hair-capture --scene demo --frames 0:72 --fps 24 --size 1280x720 --samples 1 --supersample 2 --set coverage=alpha --set strand.segments=16 -o build/demo.mp4
 
 view: setup ## Build and open hair-view, a window with every option in a panel
 	@$(MAKE) -j$(JOBS) $(B)/hair-view
@@ -331,22 +331,30 @@ LONG := bench rod_limits determinism soak threads rod_stress lod instance list c
   precompile rod_contact rod_pins examples rod_two body save rod_whip rod_shape contained rod_bodies \
   instance_far air host_capture accepted random_lists
 LONG := $(foreach n,$(LONG),$(filter %/$(n)_test,$(TESTS)))
+# Programs that compile many shaders and run each of them briefly. llvmpipe compiles these without
+# optimization, with equal results.
+BRIEF := air_draw attribute_look batch budget group_style list outputs porous raster refused report scalp sleep state
 run-tests: $(TESTS)
 	@rm -f $(B)/failed; printf '%s\n' $(filter $(STAGE),$(LONG)) $(filter-out $(LONG),$(STAGE)) | grep -F -- '$(filter)' | \
 	  xargs -r -n 1 -P $(JOBS) sh -c 'start=$$(date +%s); [ $$start -lt $(until) ] || { echo "== $$0 left out, because it is late"; exit 0; }; \
+	    case " $(BRIEF) " in *" $$(basename "$$0" _test) "*) export GALLIVM_PERF=$${GALLIVM_PERF-nopt};; esac; \
 	    said=$$(HAIR_TEST=required "$$0" 2>&1) || echo "$$0" >>$(B)/failed; \
 	    printf "== %s, %d s\n%s\n" "$$0" $$(($$(date +%s) - start)) "$$said"'; \
 	  [ ! -e $(B)/failed ] || { echo "failed:" $$(cat $(B)/failed); exit 1; }
 
 include tests/fuzz/fuzz.mk
 
+VARIANTS := $(B)/glsl
 glsl: ## Compile every shader offline, without a GPU
+	@rm -rf $(VARIANTS) && mkdir -p $(VARIANTS)
 	@{ { printf '#define FEATURE(name, define) @define name;\n#define TEXT(x) #x\n' ; \
 	     printf '#define PASS(name, label, category, features, stages) TEXT((features)) stages;\n#include "lib/gl/passes.inl"\n'; } | \
 	     $(CC) -E -P -I. -x c - | tr -d '\n' | tr ';' '\n' | awk -f tools/programs.awk; \
 	   printf '%s\n' glsl/gl/driver_quirks.tesc glsl/gl/driver_quirks.tese '-DHAIR_USER_VERTICES=1 glsl/draw/strand.vert' \
 	     '-DHAIR_FIBRES=1 -DHAIR_USER_PIXELS=1 glsl/draw/strand.frag'; } | sort -u | \
-	  xargs -r -L 1 -P $(JOBS) glslc --target-env=opengl4.5 -Werror -fauto-map-locations -DHAIR_LINES_LEVEL=0 -Iglsl -o /dev/null
+	  awk -v folder=$(VARIANTS) -f tools/variants.awk >$(VARIANTS)/names
+	@cd $(VARIANTS) && xargs -n 50 -P $(JOBS) glslc -c --target-env=opengl4.5 --target-spv=spv1.3 -Werror -fauto-map-locations \
+	  -DHAIR_LINES_LEVEL=0 -I$(CURDIR)/glsl <names
 
 check: rooms circles commands symbols hardened comments lines functions words arrays loops mutations amalgam port-version formatted ## Check the order of folders, circles of files, exported names, the one file of all and style
 rooms:

@@ -1,5 +1,5 @@
-# programs.awk - List the shader programs that `make glsl` compiles, as options of glslc, one shader
-# per line.
+# programs.awk - List the shader programs that `make glsl` compiles, as options -D and a
+# shader, one per line.
 #
 # The input is the preprocessed table of passes.inl, with '@"DEFINE" NAME' for each feature and
 # '"features" "stages"' for each row. Not all combinations of a row's features are listed. The list
@@ -20,7 +20,7 @@ function print_stage(flags, stage)
     if (stage ~ /\.comp$/) flags = flags " -DHAIR_STORED=1" # As lib/gl/program.c does.
     print "-DHAIR_GUIDE_THREADS=256" flags " glsl/" stage
     if (stage == "sim/rod.comp" || stage == "sim/mixed.comp")
-        print "--target-spv=spv1.3 -DHAIR_SUBGROUP=1 -DHAIR_GUIDE_THREADS=32" flags " glsl/" stage
+        print "-DHAIR_SUBGROUP=1 -DHAIR_GUIDE_THREADS=32" flags " glsl/" stage
 }
 
 function print_program(mixture, stages,    i, n, name, names, part, define, flags, there)

@@ -21,10 +21,10 @@ struct golden {
     double min_lit, max_lit;
 };
 
-// Fewer and wider strands than in the scenes. All strands would take a CPU half a minute, and use
-// the same shaders.
-#define FEW "--followers 3000 --set strand.radius=4e-4"
-#define FEWER "--followers 1500 --set strand.radius=6e-4"
+// Fewer guides, and fewer and wider strands, than in the scenes. All of them would take a CPU half
+// a minute, and use the same shaders.
+#define FEW "--guides 80 --followers 3000 --set strand.radius=4e-4"
+#define FEWER "--guides 80 --followers 1500 --set strand.radius=6e-4"
 static const struct golden goldens[] = {
     {"demo", "--scene demo --frames 10:11 " FEW, 0.05, 0.5},
     {"demo_lines", "--scene demo --frames 10:11 " FEW " --primitive lines", 0.05, 0.5},

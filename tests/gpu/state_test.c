@@ -225,9 +225,6 @@ static void compatibility_context_keeps_fixed_function_state(void** state)
 
 int main(void)
 {
-    // Draws here are tiny, and most time goes into Mesa's optimisation of the programs. Only Mesa's
-    // software rasteriser reads this variable.
-    setenv("GALLIVM_PERF", "nopt", 0);
     if (hair_test_skips()) return 0;
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(calls_restore_all_opengl_state_and_the_error_flag, start, finish),
