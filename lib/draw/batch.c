@@ -88,37 +88,29 @@ static struct part find_part(const struct hair_batch* batch, uint32_t first)
 
 static hair_result ensure_buffers(struct hair_batch* batch, const struct part* part)
 {
-    struct hair_gl* gl = batch->gl;
-    size_t size = HAIR_BATCH_HEADS * sizeof *batch->head;
-    size_t tiles = part->tiles + HAIR_BATCH_HEADS * HAIR_TILE_FIRST;
-    if (!batch->params)
-        HAIR_TRY(hair_gl_uniform(gl, HAIR_GL_NO_CATEGORY, "hair batch", size, &batch->params));
-    if (tiles > batch->tile_room) hair_gl_free_buffer_texture(gl, &batch->tile_texture);
-    HAIR_TRY(hair_draw_ensure_numbers(gl, HAIR_GL_NO_CATEGORY, "hair batch tiles", tiles, &batch->tile,
-                                      &batch->tile_room));
-    if (!batch->tile_texture)
-        HAIR_TRY(hair_gl_buffer_texture(gl, "hair batch tiles", GL_R32UI, batch->tile, &batch->tile_texture));
-    return hair_draw_ensure_numbers(gl, HAIR_GL_NO_CATEGORY, "hair batch samples", 2 * part->samples,
-                                    &batch->nearest, &batch->nearest_room);
+    struct hair_raster_sizes sizes = {.params = HAIR_BATCH_HEADS * sizeof *batch->head,
+                                      .nearest = 2 * part->samples,
+                                      .tile = part->tiles + HAIR_BATCH_HEADS * HAIR_TILE_FIRST};
+    return hair_raster_ensure(batch->gl, HAIR_GL_NO_CATEGORY, &sizes, &batch->raster);
 }
 
 static void rasterise_heads(struct hair_batch* batch, const struct hair_draw_plan* plan, struct part* part)
 {
     struct hair_gl* gl = batch->gl;
     const struct hair_batch_head* last = &part->head[part->heads - 1];
-    const GLuint buffers[] = {batch->nearest, batch->tile};
+    const GLuint buffers[] = {batch->raster.nearest, batch->raster.tile};
     size_t size = part->heads * sizeof *part->head;
     uint32_t numbers = (uint32_t)(2 * part->samples), heads = HAIR_BATCH_HEADS * HAIR_TILE_FIRST;
     uint32_t threads = (numbers + 3) / 4 > heads ? (numbers + 3) / 4 : heads;
     hair_gl_bind_buffers(gl, GL_SHADER_STORAGE_BUFFER, HAIR_BIND_NEAREST, 2, buffers);
-    hair_gl_bind_buffers(gl, GL_SHADER_STORAGE_BUFFER, HAIR_BIND_BATCH, 1, &batch->params);
+    hair_gl_bind_buffers(gl, GL_SHADER_STORAGE_BUFFER, HAIR_BIND_BATCH, 1, &batch->raster.params);
     hair_gl_bind_buffers(gl, GL_SHADER_STORAGE_BUFFER, HAIR_BIND_RIBBON_POSITION, 2, batch->vertices);
-    hair_gl_write_uniform(gl, batch->params, size, part->head);
+    hair_gl_write_uniform(gl, batch->raster.params, size, part->head);
     hair_draw_run(gl, HAIR_GL_RASTER_CLEAR, plan, (threads + HAIR_GROUP_SIZE - 1) / HAIR_GROUP_SIZE);
     hair_draw_run(gl, HAIR_GL_RASTER, plan, last->raster_end);
     if (!gl->long_atomics) {
         for (uint32_t i = 0; i < part->heads; ++i) part->head[i].raster.claims = 1;
-        hair_gl_write_uniform(gl, batch->params, size, part->head);
+        hair_gl_write_uniform(gl, batch->raster.params, size, part->head);
         hair_draw_run(gl, HAIR_GL_RASTER, plan, last->raster_end);
     }
     hair_draw_run(gl, HAIR_GL_COMPOSE_TILES, plan, last->compose_end);
@@ -131,10 +123,10 @@ static void resolve_heads(struct hair_batch* batch, const struct hair_draw_plan*
     gl->BindVertexArray(gl->vertex_array);
     gl->Disable(GL_CULL_FACE);
     hair_gl_begin(gl, plan->draw);
-    hair_gl_bind_texture(gl, HAIR_UNIT_TILE, batch->tile_texture);
+    hair_gl_bind_texture(gl, HAIR_UNIT_TILE, batch->raster.tile_texture);
     hair_gl_bind_texture(gl, HAIR_UNIT_SHADED, batch->shaded_texture);
     hair_draw_begin_outputs(gl, hair_draw_find_outputs(gl, plan), &outputs);
-    hair_draw_issue_tiles(gl, batch->tile, heads);
+    hair_draw_issue_tiles(gl, batch->raster.tile, heads);
     hair_draw_end_outputs(gl, &outputs);
     hair_gl_end(gl, plan->draw);
 }

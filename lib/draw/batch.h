@@ -3,6 +3,7 @@
 #ifndef HAIR_DRAW_BATCH_H
 #define HAIR_DRAW_BATCH_H
 
+#include "lib/draw/raster.h"
 #include "lib/draw/view_cache.h"
 
 struct hair_draw_plan;
@@ -21,9 +22,7 @@ struct hair_batch {
     struct hair_batch_head* head; // Heads that are drawn next, with room for HAIR_BATCH_HEADS.
     uint32_t heads;
     size_t max_samples; // Maximum samples of heads that are drawn at once, unless one has more.
-    GLuint params, nearest, tile; // Buffers, as in shared.h. 0 until needed.
-    GLuint tile_texture; // Buffer texture of `tile`.
-    size_t nearest_room, tile_room; // Capacities in numbers.
+    struct hair_raster raster; // Of the heads that are drawn at once.
 };
 
 // Functions of batch_places.c.

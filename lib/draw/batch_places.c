@@ -32,9 +32,7 @@ void hair_batch_free(struct hair_batch* batch)
 {
     struct hair_gl* gl = batch->gl;
     free_vertices(batch);
-    hair_gl_free_buffer(gl, &batch->params);
-    hair_gl_free_buffer(gl, &batch->nearest);
-    hair_gl_free_array(gl, &batch->tile, &batch->tile_texture);
+    hair_raster_free(gl, &batch->raster);
     hair_free(&gl->host, batch->head);
     hair_batch_init(batch, gl);
 }

@@ -254,10 +254,6 @@ void hair_draw_rasterise(struct hair_renderer* renderer, struct hair_draw_plan* 
 // Return the work groups that rasterise the segments of a view. Write the threads of a segment.
 uint32_t hair_draw_raster_groups(const struct hair_renderer* renderer, const hair_view* view,
                                  struct hair_raster_params* params);
-// Make a buffer that holds `count` numbers. Leave some slack, so that hair that comes nearer does
-// not reallocate the buffer each time.
-hair_result hair_draw_ensure_numbers(struct hair_gl* gl, hair_gl_category category, const char* label,
-                                     size_t count, GLuint* buffer, size_t* room);
 // Run a pass before the one that draws, with its features of a plan.
 void hair_draw_run(struct hair_gl* gl, hair_gl_pass row, const struct hair_draw_plan* plan, uint32_t groups);
 // Draw lists of tiles by the commands at the beginning of a buffer, with the current program.

@@ -148,33 +148,6 @@ bool hair_draw_find_raster(const struct hair_renderer* renderer, const struct ha
     return true;
 }
 
-hair_result hair_draw_ensure_numbers(struct hair_gl* gl, hair_gl_category category, const char* label,
-                                     size_t count, GLuint* buffer, size_t* room)
-{
-    if (count <= *room) return HAIR_OK;
-    size_t more = (count + count / 2 + 3) / 4 * 4;
-    if (hair_gl_fits(gl, more * sizeof(uint32_t), sizeof(uint32_t))) count = more;
-    hair_gl_free_buffer(gl, buffer);
-    *room = 0;
-    hair_result result = hair_gl_storage(gl, category, label, count * sizeof(uint32_t), NULL, buffer);
-    if (!result) *room = count;
-    return result;
-}
-
-// Make the list of tiles, which begins with a command.
-static hair_result ensure_tiles(struct hair_gl* gl, struct hair_raster* raster, size_t tiles)
-{
-    tiles += HAIR_TILE_FIRST;
-    if (tiles <= raster->tile_room) return HAIR_OK;
-    hair_gl_free_buffer_texture(gl, &raster->tile_texture);
-    hair_result result = hair_draw_ensure_numbers(gl, HAIR_GL_CATEGORY_COLOR, "hair tiles", tiles,
-                                                  &raster->tile, &raster->tile_room);
-    if (!result)
-        result = hair_gl_buffer_texture(gl, "hair tiles", GL_R32UI, raster->tile, &raster->tile_texture);
-    if (result) raster->tile_room = 0;
-    return result;
-}
-
 // Return how many numbers the samples take. A depth pass has one per sample.
 static size_t count_numbers(const struct hair_raster_params* params, hair_gl_pass with)
 {
@@ -185,27 +158,19 @@ hair_result hair_draw_ensure_raster(struct hair_renderer* renderer, struct hair_
 {
     const struct hair_raster_params* params = &plan->raster;
     struct hair_gl* gl = renderer->gl;
-    struct hair_raster* raster = &renderer->raster;
-    hair_result result = HAIR_OK;
     if (params->samples > HAIR_RASTER_SAMPLES)
         return hair_fail(&gl->host, HAIR_ERROR_OPENGL,
                          "HAIR_RENDER_PATH_COMPUTE draws into pixels of up to %d samples, not of %u",
                          HAIR_RASTER_SAMPLES, params->samples);
-    if (!raster->params)
-        result = hair_gl_uniform(gl, HAIR_GL_CATEGORY_COLOR, "hair raster", sizeof *params, &raster->params);
-    if (!result) result = ensure_tiles(gl, raster, params->tiles);
-    if (result) return result;
-    return hair_draw_ensure_numbers(gl, HAIR_GL_CATEGORY_COLOR, "hair nearest",
-                                    count_numbers(params, plan->draw), &raster->nearest, &raster->room);
+    struct hair_raster_sizes sizes = {.params = sizeof *params,
+                                      .nearest = count_numbers(params, plan->draw),
+                                      .tile = params->tiles + HAIR_TILE_FIRST};
+    return hair_raster_ensure(gl, HAIR_GL_CATEGORY_COLOR, &sizes, &renderer->raster);
 }
 
 void hair_draw_free_raster(struct hair_renderer* renderer)
 {
-    struct hair_raster* raster = &renderer->raster;
-    hair_gl_free_buffer(renderer->gl, &raster->params);
-    hair_gl_free_buffer(renderer->gl, &raster->nearest);
-    hair_gl_free_array(renderer->gl, &raster->tile, &raster->tile_texture);
-    raster->room = raster->tile_room = 0;
+    hair_raster_free(renderer->gl, &renderer->raster);
 }
 
 static uint32_t groups_for(uint64_t threads)
