@@ -4,7 +4,9 @@
 #include "lib/groom/style_grow.h"
 
 #define HAIRLINE_DENSITY 0.3f // Fraction of the full density at the hairline.
+#define SHOWN_DENSITY 0.08f // Fraction where all hair is combed away from the hairline.
 #define HAIRLINE_WIDTH 0.012f // Height above the hairline of the full density, m.
+#define SHOWN_WIDTH 0.022f // Height where all hair is combed away from the hairline, m.
 #define FINEST 0.4f // Radius of hair at the hairline, as a fraction of the radius of other hair.
 #define FINE_HEIGHT 0.02f // Height above the hairline of the full radius, m.
 
@@ -35,30 +37,32 @@ static hair_result grow_guides(const hair_host* host, const hair_style_desc* des
     return HAIR_OK;
 }
 
-// Let the density fall off towards the hairline, which no head has as a sharp edge. The hairline is
-// uneven.
-static hair_result thin_hairline(const hair_host* host, struct hair_parting parting, uint32_t seed,
-                                 struct hair_asset* asset)
-{
-    asset->scalp_density = hair_alloc(host, asset->scalp_vertex_count, sizeof(float));
-    if (!asset->scalp_density) return hair_fail_memory(host, "the density of a haircut");
-    for (uint32_t i = 0; i < asset->scalp_vertex_count; ++i) {
-        hair_vec3 p = hair_load3(asset->scalp_positions + 3 * (size_t)i), unit = hair_skull_unit(p);
-        float above = p.y - hair_scalp_hairline(atan2f(unit.x, unit.z));
-        float edge = HAIRLINE_DENSITY * (1 + 0.6f * hair_noise(p, 0.009f, hair_hash(seed + 71u)));
-        // Hair runs away from a parting on both sides, and would leave a triangle of skin there.
-        float beside = parting.exists && p.z > 0 ? fabsf(p.x - hair_parting_x(parting, p.z)) : 1;
-        edge = hair_mix(edge, 1, hair_smooth(0.020f, 0.006f, beside));
-        asset->scalp_density[i] = hair_mix(edge, 1, hair_smooth(0.002f, HAIRLINE_WIDTH, above));
-    }
-    return HAIR_OK;
-}
-
 // Return whether all hair is combed away from the hairline, which shows.
 static bool shows_hairline(hair_style style)
 {
     return style == HAIR_STYLE_SHORT || style == HAIR_STYLE_FADE || style == HAIR_STYLE_PONYTAIL ||
            style == HAIR_STYLE_BUN || style == HAIR_STYLE_BRAID;
+}
+
+// Let the density fall off towards the hairline, which no head has as a sharp edge. The hairline is
+// uneven.
+static hair_result thin_hairline(const hair_host* host, const hair_style_desc* desc, struct hair_asset* asset)
+{
+    struct hair_parting parting = hair_style_parting(desc->style);
+    bool shows = shows_hairline(desc->style);
+    float density = shows ? SHOWN_DENSITY : HAIRLINE_DENSITY, width = shows ? SHOWN_WIDTH : HAIRLINE_WIDTH;
+    asset->scalp_density = hair_alloc(host, asset->scalp_vertex_count, sizeof(float));
+    if (!asset->scalp_density) return hair_fail_memory(host, "the density of a haircut");
+    for (uint32_t i = 0; i < asset->scalp_vertex_count; ++i) {
+        hair_vec3 p = hair_load3(asset->scalp_positions + 3 * (size_t)i), unit = hair_skull_unit(p);
+        float above = p.y - hair_scalp_hairline(atan2f(unit.x, unit.z));
+        float edge = density * (1 + 0.6f * hair_noise(p, 0.009f, hair_hash(desc->seed + 71u)));
+        // Hair runs away from a parting on both sides, and would leave a triangle of skin there.
+        float beside = parting.exists && p.z > 0 ? fabsf(p.x - hair_parting_x(parting, p.z)) : 1;
+        edge = hair_mix(edge, 1, hair_smooth(0.020f, 0.006f, beside));
+        asset->scalp_density[i] = hair_mix(edge, 1, hair_smooth(0.002f, width, above));
+    }
+    return HAIR_OK;
 }
 
 // Let hair of the hairline be finer than other hair, as on a head. Thick hair would draw its edge.
@@ -89,7 +93,7 @@ static hair_result build_style(const hair_host* host, const hair_style_desc* des
     asset->scalp_triangles = scalp.triangles;
     asset->scalp_vertex_count = scalp.vertex_count;
     asset->scalp_triangle_count = scalp.triangle_count;
-    HAIR_TRY(thin_hairline(host, hair_style_parting(desc->style), desc->seed, asset));
+    HAIR_TRY(thin_hairline(host, desc, asset));
     HAIR_TRY(refine_hairline(host, desc->style, asset));
     return grow_guides(host, desc, asset);
 }

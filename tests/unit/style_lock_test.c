@@ -174,9 +174,9 @@ static void count_drawn(const hair_groom_desc* desc, double drawn[BANDS])
 }
 
 // Compute the density at each height as a fraction of the density without a hairline.
-static void measure_hairline(uint32_t guides, double drawn[BANDS])
+static void measure_hairline(hair_style style, double drawn[BANDS])
 {
-    struct hair_test_cut cut = hair_test_cut_with(&test, HAIR_STYLE_SHORT, guides, 1, 1);
+    struct hair_test_cut cut = hair_test_cut_with(&test, style, 500, 1, 1);
     hair_groom_desc desc = hair_groom_desc_default();
     double full[BANDS];
     desc.host = &test.host;
@@ -185,7 +185,8 @@ static void measure_hairline(uint32_t guides, double drawn[BANDS])
     count_drawn(&desc, drawn);
     desc.scalp_density = NULL;
     count_drawn(&desc, full);
-    print_message("    density at the hairline of %u guides, each %g mm:", guides, 1e3 * (double)BAND);
+    print_message("    density at the hairline of %s, each %g mm:", hair_style_name(style),
+                  1e3 * (double)BAND);
     for (int band = 0; band < BANDS; ++band) {
         assert_true(full[band] > 400);
         drawn[band] /= full[band];
@@ -199,11 +200,23 @@ static void density_falls_off_over_a_centimetre(void** state)
 {
     (void)state;
     double drawn[BANDS];
-    measure_hairline(500, drawn);
+    measure_hairline(HAIR_STYLE_LONG, drawn);
     assert_true(drawn[0] > 0.2 && drawn[0] < 0.5);
     for (int band = 0; band < 4; ++band) assert_true(drawn[band] < drawn[band + 1] + 0.03);
     assert_true(drawn[2] > 0.5 && drawn[2] < 0.9); // 4 to 6 mm above the hairline
     for (int band = 7; band < BANDS; ++band) assert_true(drawn[band] > 0.95);
+}
+
+// Check hair that is combed away from the hairline, which would draw a hard edge.
+static void density_falls_off_over_two_centimetres_where_it_shows(void** state)
+{
+    (void)state;
+    double drawn[BANDS];
+    measure_hairline(HAIR_STYLE_SHORT, drawn);
+    assert_true(drawn[0] > 0.05 && drawn[0] < 0.2);
+    for (int band = 0; band < BANDS - 1; ++band) assert_true(drawn[band] < drawn[band + 1] + 0.03);
+    assert_true(drawn[5] > 0.35 && drawn[5] < 0.65); // 10 to 12 mm above the hairline
+    assert_true(drawn[BANDS - 1] > 0.8);
 }
 
 // Check that hair at the nape gets thicker over two centimetres.
@@ -309,6 +322,7 @@ int main(void)
         TEST(locks_of_curly_hair_differ),
         TEST(curls_turn_little_at_each_vertex),
         TEST(density_falls_off_over_a_centimetre),
+        TEST(density_falls_off_over_two_centimetres_where_it_shows),
         TEST(hair_of_the_hairline_is_finer),
         TEST(hair_beside_a_parting_is_dense_to_the_hairline),
         TEST(tips_of_long_hair_are_layered),
