@@ -154,7 +154,11 @@ $(B)/libhair.a: $(LIB)
 $(B)/libhair_egl.a: $(EGL)
 $(B)/%.a:
 	@rm -f $@ && $(AR) rcsD $@ $^
-$(B)/libhair.so: $(LIB:.o=.shared.o)
+# Only files of these folders define public functions, which the shared libraries export. The objects of all
+# other files are in both libraries.
+EXPORTING := $(B)/lib/api/% $(B)/lib/base/%
+shared = $(foreach o,$(1),$(if $(filter $(EXPORTING),$(o)),$(o:.o=.shared.o),$(o)))
+$(B)/libhair.so: $(call shared,$(LIB))
 $(B)/libhair_egl.so: $(EGL:.o=.shared.o) $(B)/lib/base/host.c.shared.o
 $(B)/libhair_egl.so: private LINK = $(call packages,--libs,egl)
 $(B)/libhair_bullet.a: $(BUL)
@@ -176,9 +180,6 @@ $(B)/embed: tools/embed.c
 	$(call say,$@)
 	$(Q)$(HOST_CC) -std=c17 -O1 $< -o $@
 $(B)/gen/%.c.o: $(B)/gen/%.c
-	$(call say,$@)
-	$(Q)$(C) -c $< -o $@
-$(B)/gen/%.c.shared.o: $(B)/gen/%.c
 	$(call say,$@)
 	$(Q)$(C) -fPIC -c $< -o $@
 $(B)/tools/%.c.o: tools/%.c
@@ -213,17 +214,23 @@ $(B)/tests/reference/%.cpp.o: tests/reference/%.cpp
 $(B)/lib/bullet/%.cpp.o: lib/bullet/%.cpp
 	@mkdir -p $(@D)
 	$(call say,$@)
-	$(Q)$(CPP) -Wshadow -Wconversion $(BULLET_CFLAGS) -c $< -o $@
+	$(Q)$(CPP) -Wshadow -Wconversion $(BULLET_CFLAGS) -fPIC -c $< -o $@
 $(B)/lib/bullet/%.cpp.shared.o: lib/bullet/%.cpp
 	@mkdir -p $(@D)
 	$(call say,$@)
 	$(Q)$(CPP) -Wshadow -Wconversion $(BULLET_CFLAGS) -fPIC -DHAIR_BUILD_SHARED -c $< -o $@
 # Tools and tests have line numbers but no variables, because those take a third of the time to compile them.
-# Other configurations have all.
+# Other configurations have all. Tests and the viewer are optimized less for the same reason.
 $(B)/tools/% $(B)/tests/%: private C += $(if $(filter release,$(config)),-g1)
 $(B)/tools/% $(B)/tests/%: private CPP += $(if $(filter release,$(config)),-g1)
+$(B)/tools/view/% $(B)/tests/%: private C += $(if $(filter release,$(config)),-O1)
+$(B)/tools/view/% $(B)/tests/%: private CPP += $(if $(filter release,$(config)),-O1)
 # Unrolled loops over small matrices prepare guides a ninth faster, with equal bits.
 $(B)/lib/rod/%: private C += $(if $(filter release,$(config)),-O3)
+$(B)/lib/%.c.o: lib/%.c
+	@mkdir -p $(@D)
+	$(call say,$@)
+	$(Q)$(C) -fPIC -c $< -o $@
 $(B)/%.c.o: %.c
 	@mkdir -p $(@D)
 	$(call say,$@)
@@ -333,7 +340,8 @@ LONG := bench rod_limits determinism soak threads rod_stress lod instance list c
 LONG := $(foreach n,$(LONG),$(filter %/$(n)_test,$(TESTS)))
 # Programs that compile many shaders and run each of them briefly. llvmpipe compiles these without
 # optimization, with equal results.
-BRIEF := air_draw attribute_look batch budget group_style list outputs porous raster refused report scalp sleep state
+BRIEF := batch body budget capture contacts group_style list outputs porous raster refused report rod_pins save scalp \
+  sleep state
 run-tests: $(TESTS)
 	@rm -f $(B)/failed; printf '%s\n' $(filter $(STAGE),$(LONG)) $(filter-out $(LONG),$(STAGE)) | grep -F -- '$(filter)' | \
 	  xargs -r -n 1 -P $(JOBS) sh -c 'start=$$(date +%s); [ $$start -lt $(until) ] || { echo "== $$0 left out, because it is late"; exit 0; }; \
