@@ -22,7 +22,7 @@ struct hair_batch {
     struct hair_batch_head* head; // Heads that are drawn next, with room for HAIR_BATCH_HEADS.
     uint32_t heads;
     size_t max_samples; // Maximum samples of heads that are drawn at once, unless one has more.
-    struct hair_raster raster; // Of the heads that are drawn at once.
+    struct hair_raster raster; // Buffers for the heads that are drawn at once.
 };
 
 // Functions of batch_places.c.

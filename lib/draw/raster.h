@@ -6,7 +6,7 @@
 
 // Buffers of a head that is drawn alone, or of a batch of heads.
 struct hair_raster {
-    GLuint params, nearest, tile; // As in shared.h. 0 until needed.
+    GLuint params, nearest, tile; // Numbers, as in shared.h. 0 until needed.
     GLuint tile_texture; // Buffer texture of `tile`.
     size_t room, tile_room; // Capacities of `nearest` and `tile`, in numbers.
 };
