@@ -1,14 +1,9 @@
 // style_grow.c - guides of the built-in haircuts, traced from root to tip.
-//
-// A guide turns towards a pull, which is the comb near the root and gravity farther along. It is
-// pushed out of the bust to a clearance that grows along the strand. Hair from higher up thus lies
-// over hair from below.
 #include "lib/groom/style_grow.h"
 #include "lib/groom/style_body.h"
+#include "lib/groom/style_walk.h"
 
 #define PI 3.14159265f
-// Height above the clearance below which hair turns along the bust, m.
-#define CUSHION 0.020f
 // Distance from a parting within which hair runs along it at first, m.
 #define BESIDE 0.025f
 #define WHORL 0.045f // Radius of the whorl at the crown, m.
@@ -16,26 +11,6 @@
 // Height by which hair from the crown is cut shorter than hair from the hairline, m.
 #define LAYERS 0.045f
 #define CURLY_TURNS 8.5f // Mean number of turns of the longest curls.
-#define STRIDE HAIR_STYLE_PATH_STRIDE
-
-// Path of the hair of one root.
-struct walk {
-    hair_vec3 comb; // tangent to the skull at the root
-    float rise; // fraction of the skull's normal in the root's direction
-    float clearance; // distance from the bust, far from the root, m
-    float lift; // distance over which the clearance is reached, m
-    float gravity; // turn rate towards down, far from the root, 1/m
-    float hold; // distance over which the comb gives way to gravity, m
-    float press; // fraction of the height above the clearance that a step removes
-    float inward; // turn rate towards the neck near the tip, 1/m
-    float inward_below; // height below which hair turns inwards, m
-    float split; // turn rate to the front or the back of the shoulder, 1/m
-    float ridge; // z at which hair parts to the front and the back of a shoulder, m
-    float floor; // height at which the hair is cut, m
-    float face; // distance kept from the face, m
-    float fringe; // height at which hair over the forehead is cut, m, or 0
-    float max; // maximum length, m
-};
 
 // Parted hair -------------------------------------------------------------------------------------
 
@@ -93,95 +68,6 @@ static hair_vec3 comb_from_parting(struct hair_parting parting, hair_vec3 p, flo
     return hair_normalize(hair_tangential(v, normal), hair_tangential(hair_v3(0, -1, 0), normal));
 }
 
-// Return 1 in front of the ridge of a shoulder and -1 behind it, with a smooth transition. Hair
-// that comes down on the ridge slides off to that side. The value fades away from the ridge.
-static float split_at_shoulder(const struct walk* walk, hair_vec3 p)
-{
-    float off = (p.z - walk->ridge) / 0.020f;
-    return fminf(fmaxf(off, -1), 1) * hair_smooth(4.0f, 1.5f, fabsf(off)) * hair_smooth(1.60f, 1.55f, p.y) *
-           hair_smooth(1.37f, 1.42f, p.y);
-}
-
-static hair_vec3 pull(const struct walk* walk, hair_vec3 p, float s)
-{
-    float fraction = 1 - expf(-s / walk->hold);
-    hair_vec3 v = hair_v3(0, -walk->gravity * fraction, 0);
-    v.z += walk->split * split_at_shoulder(walk, p);
-    if (p.y < walk->inward_below) {
-        hair_vec3 in = hair_normalize(hair_v3(-p.x, 0, -0.02f - p.z), hair_v3(0, 0, -1));
-        v = hair_add(v, hair_scale(in, walk->inward));
-    }
-    return v;
-}
-
-// Turn hair before it meets a shoulder, so that it bends without a kink.
-static hair_vec3 cushion(hair_vec3 d, hair_vec3 normal, float over)
-{
-    float into = -hair_dot(d, normal), near = 1 - over / CUSHION;
-    return into > 0 ? hair_normalize(hair_add(d, hair_scale(normal, into * near * 70 * STRIDE)), d) : d;
-}
-
-// Return the next point, outside the bust and the face. The normal is computed only near the
-// clearance, because most of a long hair hangs free.
-static hair_vec3 step_clear_of_bust(const struct walk* walk, hair_vec3 p, hair_vec3 d, float s)
-{
-    float wanted = walk->clearance * (1 - expf(-s / walk->lift));
-    float over = hair_body_distance(p) - wanted;
-    hair_vec3 normal = {0, 0, 0};
-    if (over < CUSHION || walk->press > 0) normal = hair_body_normal(p);
-    if (over > 0 && over < CUSHION) d = cushion(d, normal, over);
-    p = hair_add(p, hair_scale(d, STRIDE));
-    over = hair_body_distance(p) - wanted;
-    if (over < 0)
-        p = hair_add(p, hair_scale(normal, fminf(-over, 0.8f * STRIDE)));
-    else
-        p = hair_sub(p, hair_scale(normal, walk->press * over));
-
-    over = hair_face_distance(p) - walk->face * (1 - expf(-s / 0.03f));
-    if (over < 0) p = hair_add(p, hair_scale(hair_face_normal(p), fminf(-over, 0.8f * STRIDE)));
-    return p;
-}
-
-// Return whether a point is over the face, below the fringe.
-static bool is_below_fringe(const struct walk* walk, hair_vec3 p)
-{
-    return p.y < walk->fringe && p.z > 0.035f && fabsf(p.x) < 0.056f;
-}
-
-static void run_walk(const struct walk* walk, hair_vec3 root, struct hair_style_path* path)
-{
-    hair_vec3 p = root, normal = hair_skull_normal(root);
-    hair_vec3 d = hair_normalize(hair_lerp(walk->comb, normal, walk->rise), normal);
-    path->count = 0, path->length = 0;
-    hair_style_path_add(path, p);
-    while (path->length < walk->max && path->count < HAIR_STYLE_PATH_POINTS && p.y > walk->floor &&
-           !is_below_fringe(walk, p)) {
-        hair_vec3 last = p;
-        d = hair_normalize(hair_add(d, hair_scale(pull(walk, p, path->length), STRIDE)), d);
-        p = step_clear_of_bust(walk, p, d, path->length);
-        d = hair_normalize(hair_sub(p, last), d);
-        hair_style_path_add(path, p);
-    }
-}
-
-static void run_to(struct walk* walk, hair_vec3 root, float length, struct hair_style_path* path)
-{
-    walk->max = length;
-    walk->floor = -INFINITY;
-    run_walk(walk, root, path);
-    hair_style_path_trim(path, length);
-}
-
-// Trace hair that is cut at a height, so that every root has its own length. `scale` then
-// multiplies that length.
-static void run_cut(struct walk* walk, hair_vec3 root, float scale, float min, struct hair_style_path* path)
-{
-    walk->max = 0.6f;
-    run_walk(walk, root, path);
-    if (scale == 1 && path->length >= min) return;
-    run_to(walk, root, fmaxf(path->length, min) * scale, path);
-}
-
 // Return the layer of a root: 0 at the hairline of nape and sides, 1 at the crown.
 static float layer(hair_vec3 root)
 {
@@ -217,7 +103,7 @@ static void grow_long(uint32_t guide, hair_vec3 root, float scale, uint32_t seed
                       struct hair_style_path* path)
 {
     float front = frontness(root), high = layer(root);
-    struct walk walk = {
+    struct hair_style_walk walk = {
         .comb = comb_from_parting(hair_style_parting(HAIR_STYLE_LONG), root, 0.30f, 1.1f),
         .rise = 0.17f,
         .clearance = hair_mix(0.004f, 0.014f, high) + uneven(root, 0.003f, seed),
@@ -231,7 +117,7 @@ static void grow_long(uint32_t guide, hair_vec3 root, float scale, uint32_t seed
         .face = 0.010f,
         .inward_below = 0,
     };
-    run_cut(&walk, root, scale, 0.03f, path);
+    hair_style_trace_cut(&walk, root, scale, 0.03f, path);
     struct hair_curl wave = {
         .radius = 0.011f, .pitch = 0.105f, .start = 0.05f * scale, .full = 0.28f * scale, .variation = 0.3f};
     add_wave(guide, root, seed, 0.06f, &wave, path);
@@ -253,7 +139,7 @@ static void grow_bob(uint32_t guide, hair_vec3 root, float scale, uint32_t seed,
 {
     float high = layer(root);
     float cut = hair_mix(1.528f, 1.500f, hair_smooth(-0.07f, 0.04f, root.z));
-    struct walk walk = {
+    struct hair_style_walk walk = {
         .comb = comb_from_parting(hair_style_parting(HAIR_STYLE_BOB), root, 0.40f, 1.0f),
         .rise = 0.16f,
         .clearance = hair_mix(0.005f, 0.017f, high) + uneven(root, 0.004f, seed),
@@ -265,14 +151,14 @@ static void grow_bob(uint32_t guide, hair_vec3 root, float scale, uint32_t seed,
         .floor = cut + 0.010f * hair_noise(root, 0.012f, seed + 1),
         .face = 0.008f,
     };
-    run_cut(&walk, root, scale, 0.03f, path);
+    hair_style_trace_cut(&walk, root, scale, 0.03f, path);
     add_slight_wave(guide, root, scale, seed, 1, path);
 }
 
 static void grow_short(hair_vec3 root, float scale, uint32_t seed, struct hair_style_path* path)
 {
     float top = hair_smooth(1.625f, 1.705f, root.y);
-    struct walk walk = {
+    struct hair_style_walk walk = {
         .comb = comb_from_parting(hair_style_parting(HAIR_STYLE_SHORT), root, 0.70f, 1.3f),
         .rise = hair_mix(0.25f, 0.32f, top),
         .clearance = hair_mix(0.005f, 0.013f, top) + 0.003f * hair_noise(root, 0.025f, seed),
@@ -282,7 +168,7 @@ static void grow_short(hair_vec3 root, float scale, uint32_t seed, struct hair_s
         .press = 0.03f,
     };
     float length = hair_mix(0.026f, 0.068f, top) * (1 + 0.12f * hair_noise(root, 0.02f, seed + 1));
-    run_to(&walk, root, scale * length, path);
+    hair_style_trace_to(&walk, root, scale * length, path);
 }
 
 // Give the lock of a guide a phase, a direction and a size of its own. Neighbouring locks of one
@@ -303,7 +189,7 @@ static void grow_curly(uint32_t guide, hair_vec3 root, float scale, uint32_t see
                        struct hair_style_path* path)
 {
     float high = layer(root), brow = hair_smooth(0.030f, 0.065f, root.z);
-    struct walk walk = {
+    struct hair_style_walk walk = {
         .comb = comb_from_parting(hair_style_parting(HAIR_STYLE_CURLY), root, 0.2f, 1.0f),
         // Volume at the root, but not before the forehead.
         .rise = hair_mix(0.45f, 0.18f, brow),
@@ -316,7 +202,7 @@ static void grow_curly(uint32_t guide, hair_vec3 root, float scale, uint32_t see
         .floor = 1.385f + LAYERS * high + 0.025f * hair_noise(root, 0.012f, seed + 1),
         .face = 0.024f,
     };
-    run_cut(&walk, root, scale, 0.04f, path);
+    hair_style_trace_cut(&walk, root, scale, 0.04f, path);
     // A kink on a shoulder would be a jump of the curl.
     hair_style_path_smooth(path, 16);
     // Long hair pulls its own curls out. Tighter turns would be zigzags with 64 vertices.
@@ -369,7 +255,7 @@ static void grow_fringe(uint32_t guide, hair_vec3 root, float scale, uint32_t se
 {
     float high = layer(root), front = hair_smooth(0.005f, 0.030f, root.z);
     float cut = hair_mix(1.528f, 1.500f, hair_smooth(-0.07f, 0.04f, root.z));
-    struct walk walk = {
+    struct hair_style_walk walk = {
         .comb = comb_from_whorl(root),
         .rise = 0.16f,
         .clearance = hair_mix(0.005f, hair_mix(0.017f, 0.012f, front), high) + uneven(root, 0.002f, seed),
@@ -382,7 +268,7 @@ static void grow_fringe(uint32_t guide, hair_vec3 root, float scale, uint32_t se
         .face = hair_mix(0.004f, -0.06f, front),
         .fringe = 1.628f + 0.005f * hair_noise(root, 0.012f, seed + 1),
     };
-    run_cut(&walk, root, scale, 0.03f, path);
+    hair_style_trace_cut(&walk, root, scale, 0.03f, path);
     add_slight_wave(guide, root, scale, seed, 0.7f * (1 - front), path);
 }
 
@@ -390,7 +276,7 @@ static void grow_fringe(uint32_t guide, hair_vec3 root, float scale, uint32_t se
 static void grow_fade(hair_vec3 root, float scale, uint32_t seed, struct hair_style_path* path)
 {
     float top = hair_smooth(1.615f, 1.705f, root.y + 0.15f * fmaxf(root.z, 0));
-    struct walk walk = {
+    struct hair_style_walk walk = {
         .comb = comb_from_parting(hair_style_parting(HAIR_STYLE_FADE), root, 0.70f, 1.3f),
         .rise = hair_mix(0.35f, 0.40f, top),
         .clearance = hair_mix(0.002f, 0.012f, top) + top * 0.003f * hair_noise(root, 0.025f, seed),
@@ -400,7 +286,7 @@ static void grow_fade(hair_vec3 root, float scale, uint32_t seed, struct hair_st
         .press = 0.03f,
     };
     float length = 0.004f * powf(14, top) * (1 + 0.12f * hair_noise(root, 0.02f, seed + 1));
-    run_to(&walk, root, fmaxf(scale * length, 0.002f), path);
+    hair_style_trace_to(&walk, root, fmaxf(scale * length, 0.002f), path);
 }
 
 // -------------------------------------------------------------------------------------------------
