@@ -5,15 +5,14 @@
 
 #include "tools/bullet/world.h"
 #include "tools/common/capture_options.h"
+#include "tools/common/capture_outputs.h"
 #include "tools/common/character.h"
 #include "tools/common/cuts.h"
-#include "tools/common/dump.h"
-#include "tools/common/file.h"
 #include "tools/common/frame_hash.h"
 #include "tools/common/interrupt.h"
 #include "tools/common/playback.h"
 #include "tools/common/render.h"
-#include "tools/common/frame_writer.h"
+#include "tools/common/shader_file.h"
 #include "tools/common/stats.h"
 #include "tools/common/groom_source.h"
 #include "tools/common/groups.h"
@@ -25,7 +24,6 @@
 #include <unistd.h>
 
 #define TOOL "hair-capture"
-#define MAX_SHADER ((size_t)1 << 20) // bytes
 // Maximum step, s, the default of hair_desc.max_dt. A longer frame is stepped in parts.
 #define LONGEST_STEP 0.1f
 
@@ -46,11 +44,10 @@ struct capture {
     struct hair_character* character; // NULL if the scene has none
     float eye[3], target[3]; // of the camera at the start of the scene, m
     struct hair_render* render;
-    struct hair_frame_writer sink;
+    struct hair_capture_outputs outputs;
     struct hair_stats stats;
     float reach; // radius of the head's reach, m
     struct hair_frame_hash hash;
-    struct hair_dump guides, followers;
     struct hair_playback cache;
     double started; // ms
 };
@@ -159,7 +156,7 @@ static int make_render(struct capture* capture)
                                     .height = options->scene.height,
                                     .samples = options->samples,
                                     .supersample = options->supersample,
-                                    .linear = capture->sink.kind == HAIR_FRAME_WRITER_EXR};
+                                    .linear = capture->outputs.frames.kind == HAIR_FRAME_WRITER_EXR};
     int code = hair_render_create(TOOL, &desc, &capture->render);
     return code ? code : make_mesh(capture);
 }
@@ -199,24 +196,11 @@ static hair_result set_colliders(struct capture* capture, float time, const floa
 
 static int make_shader(struct capture* capture)
 {
-    hair_shader_desc desc = hair_shader_desc_default();
-    struct hair_bytes bytes;
-    if (!capture->options.shader) return HAIR_EXIT_OK;
-    if (!hair_file_read(TOOL, capture->options.shader, MAX_SHADER, &bytes)) return HAIR_EXIT_INPUT;
-    char* text = malloc(bytes.size + 1);
-    if (text) {
-        memcpy(text, bytes.data, bytes.size);
-        text[bytes.size] = 0;
-        desc.label = capture->options.shader;
-        desc.glsl = text;
-        desc.at = HAIR_SHADE_PIXELS;
-    }
-    free(bytes.data);
-    hair_result result =
-        text ? hair_shader_create(capture->context, &desc, &capture->shader) : HAIR_ERROR_MEMORY;
-    free(text);
+    const char* path = capture->options.shader;
+    if (!path) return HAIR_EXIT_OK;
+    int code = hair_shader_file_create(TOOL, path, capture->context, &capture->shader);
     capture->options.scene.settings.view.shader = capture->shader;
-    return result == HAIR_ERROR_OPENGL ? HAIR_EXIT_INPUT : hair_exit_for(result);
+    return code;
 }
 
 static int make_hair(struct capture* capture)
@@ -281,12 +265,6 @@ static hair_result step(struct capture* capture, uint32_t frame)
     return result;
 }
 
-static int dump(struct capture* capture)
-{
-    int code = hair_dump_put(&capture->guides, capture->hair);
-    return code ? code : hair_dump_put(&capture->followers, capture->hair);
-}
-
 // Draw the mesh of the character in its pose, from a camera that follows.
 static void move_picture(struct capture* capture, float time)
 {
@@ -307,7 +285,8 @@ static int show(struct capture* capture, uint32_t frame)
     const struct hair_image* image;
     float transform[16];
     double before = hair_now();
-    if (!options->out && !options->stats && !options->hash) return dump(capture);
+    if (!options->out && !options->stats && !options->hash)
+        return hair_capture_outputs_dump(&capture->outputs, capture->hair);
     if (!pose_at(capture, time_of(capture, frame), transform)) return HAIR_EXIT_INPUT;
     if (capture->character) move_picture(capture, time_of(capture, frame));
     int code = hair_render_frame(capture->render, scene, transform, capture->reach, capture->hair, &image);
@@ -316,8 +295,8 @@ static int show(struct capture* capture, uint32_t frame)
     hair_clock_add(&capture->stats.draw, hair_now() - before);
     if (capture->options.hash)
         code = hair_exit_for(hair_frame_hash_add(&capture->hash, capture->hair, image));
-    if (!code) code = dump(capture);
-    if (!code && !hair_frame_writer_put(&capture->sink, image, frame)) code = HAIR_EXIT_RUNTIME;
+    if (!code) code = hair_capture_outputs_dump(&capture->outputs, capture->hair);
+    if (!code && !hair_frame_writer_put(&capture->outputs.frames, image, frame)) code = HAIR_EXIT_RUNTIME;
     return code;
 }
 
@@ -399,54 +378,18 @@ static int write_stats(struct capture* capture)
     return ok ? HAIR_EXIT_OK : HAIR_EXIT_RUNTIME;
 }
 
-static int open_outputs(struct capture* capture)
-{
-    const struct hair_capture_options* options = &capture->options;
-    double fps = (double)options->scene.fps;
-    struct hair_dump_frames frames = {options->first, options->end - options->first, fps};
-    if (!hair_frame_writer_open(&capture->sink, fps)) return HAIR_EXIT_RUNTIME;
-    int code = hair_dump_open(TOOL, options->dump_guides, HAIR_READ_SMOOTH, capture->hair, &frames,
-                              &capture->guides);
-    if (!code)
-        code = hair_dump_open(TOOL, options->dump_followers, HAIR_READ_FOLLOWERS, capture->hair, &frames,
-                              &capture->followers);
-    return code;
-}
-
-// Complete all outputs. If one cannot be completed, discard those that are left.
-static int commit_outputs(struct capture* capture)
-{
-    int code = hair_frame_writer_commit(&capture->sink) ? HAIR_EXIT_OK : HAIR_EXIT_RUNTIME;
-    struct hair_dump* dumps[] = {&capture->guides, &capture->followers};
-    for (int i = 0; i < 2; ++i)
-        if (code)
-            hair_dump_discard(dumps[i]);
-        else
-            code = hair_dump_commit(dumps[i]);
-    return code;
-}
-
-static void discard_outputs(struct capture* capture)
-{
-    hair_frame_writer_discard(&capture->sink);
-    hair_dump_discard(&capture->guides);
-    hair_dump_discard(&capture->followers);
-}
-
 static int run(struct capture* capture)
 {
     const struct hair_capture_options* options = &capture->options;
-    const struct hair_scene* scene = &options->scene;
-    int code = hair_frame_writer_plan(TOOL, options->out, scene->width, scene->height,
-                                      options->end - options->first, &capture->sink);
+    int code = hair_capture_outputs_plan(TOOL, options, &capture->outputs);
     if (!code) code = make(capture);
     if (code) return code;
-    code = open_outputs(capture);
+    code = hair_capture_outputs_open(TOOL, options, capture->hair, &capture->outputs);
     if (!code) code = run_frames(capture);
     if (code)
-        discard_outputs(capture);
+        hair_capture_outputs_discard(&capture->outputs);
     else
-        code = commit_outputs(capture);
+        code = hair_capture_outputs_commit(&capture->outputs);
     if (!code) code = write_stats(capture);
     return code || !options->hash ? code : hair_frame_hash_print(TOOL, &capture->hash);
 }
