@@ -24,7 +24,7 @@ struct golden {
 // Fewer guides, and fewer and wider strands, than in the scenes. All of them would take a CPU half
 // a minute, and use the same shaders.
 #define FEW "--guides 80 --followers 3000 --set strand.radius=4e-4"
-#define FEWER "--guides 80 --followers 1500 --set strand.radius=6e-4"
+#define FEWER "--guides 40 --followers 1500 --set strand.radius=6e-4"
 static const struct golden goldens[] = {
     {"demo", "--scene demo --frames 10:11 " FEW, 0.05, 0.5},
     {"demo_lines", "--scene demo --frames 10:11 " FEW " --primitive lines", 0.05, 0.5},
