@@ -340,8 +340,8 @@ LONG := bench rod_limits determinism soak threads rod_stress lod instance list c
 LONG := $(foreach n,$(LONG),$(filter %/$(n)_test,$(TESTS)))
 # Programs that compile many shaders and run each of them briefly. llvmpipe compiles these without
 # optimization, with equal results.
-BRIEF := batch body budget capture contacts group_style list outputs porous raster refused report rod_pins save scalp \
-  sleep state
+BRIEF := batch body budget capture contacts determinism group_style list outputs porous raster refused \
+  report rod_pins save scalp sleep state
 run-tests: $(TESTS)
 	@rm -f $(B)/failed; printf '%s\n' $(filter $(STAGE),$(LONG)) $(filter-out $(LONG),$(STAGE)) | grep -F -- '$(filter)' | \
 	  xargs -r -n 1 -P $(JOBS) sh -c 'start=$$(date +%s); [ $$start -lt $(until) ] || { echo "== $$0 left out, because it is late"; exit 0; }; \
