@@ -227,14 +227,10 @@ $(B)/tools/view/% $(B)/tests/%: private C += $(if $(filter release,$(config)),-O
 $(B)/tools/view/% $(B)/tests/%: private CPP += $(if $(filter release,$(config)),-O1)
 # Unrolled loops over small matrices prepare guides a ninth faster, with equal bits.
 $(B)/lib/rod/%: private C += $(if $(filter release,$(config)),-O3)
-$(B)/lib/%.c.o: lib/%.c
-	@mkdir -p $(@D)
-	$(call say,$@)
-	$(Q)$(C) -fPIC -c $< -o $@
 $(B)/%.c.o: %.c
 	@mkdir -p $(@D)
 	$(call say,$@)
-	$(Q)$(C) -c $< -o $@
+	$(Q)$(C) -fPIC -c $< -o $@
 $(B)/%.c.shared.o: %.c
 	@mkdir -p $(@D)
 	$(call say,$@)
