@@ -327,7 +327,7 @@ static int run_frames(struct capture* capture)
     for (uint32_t frame = 0; frame < options->end; ++frame) {
         double before = hair_now();
         int code = frame ? exit_for_settings(capture, hair_exit_for(step(capture, frame))) : HAIR_EXIT_OK;
-        if (frame && options->stats) {
+        if (!code && frame && options->stats) {
             glFinish();
             hair_clock_add(&capture->stats.step, hair_now() - before);
         }
@@ -401,7 +401,8 @@ static void destroy(struct capture* capture)
     hair_world_destroy(capture->world);
     hair_character_destroy(capture->character);
     for (int i = 0; i < HEAD_MESHES; ++i) hair_collision_mesh_destroy(capture->head[i]);
-    if (capture->render) hair_render_destroy(capture->render);
+    // The context may be lost, and Epoxy aborts if a function is first called in a lost context.
+    hair_render_abandon(capture->render);
     hair_shader_destroy(capture->shader);
     hair_context_destroy(capture->context);
     hair_egl_destroy(capture->egl);

@@ -106,6 +106,12 @@ void hair_render_destroy(struct hair_render* render)
     for (int i = 0; i < HAIR_SCENE_SHADOWS; ++i) hair_shadow_map_delete(&render->map[i]);
     glDeleteSamplers(1, &render->shadow_sampler);
     hair_render_mesh_delete(&render->mesh);
+    hair_render_abandon(render);
+}
+
+void hair_render_abandon(struct hair_render* render)
+{
+    if (!render) return;
     free(render->image.encoded);
     free(render->image.linear);
     free(render);
@@ -367,7 +373,8 @@ int hair_render_frame(struct hair_render* render, const struct hair_scene* scene
     hair_camera_matrices(scene, transform, reach, &camera);
     hair_result result = draw_shadows(render, &frame);
     if (!result) result = draw_tiles(render, &frame, &camera);
-    GLenum error = glGetError();
+    // Epoxy aborts if a function is first called in a lost context.
+    GLenum error = result == HAIR_ERROR_CONTEXT_LOST ? GL_NO_ERROR : glGetError();
     if (!result && error) hair_complain(render->tool, "OpenGL error 0x%04x while drawing", error);
     *out = &render->image;
     return error && !result ? HAIR_EXIT_OPENGL : hair_exit_for(result);

@@ -23,6 +23,10 @@ struct hair_render;
 int hair_render_create(const char* tool, const struct hair_render_desc* desc, struct hair_render** out);
 void hair_render_destroy(struct hair_render* render); // NULL is allowed.
 
+// Free a renderer without OpenGL calls, before its context ends or after its context is lost. The
+// OpenGL objects end with the context. NULL is allowed.
+void hair_render_abandon(struct hair_render* render);
+
 // Set the mesh that is drawn beside the hair. With `whole`, the whole mesh moves with the head.
 // Otherwise it bends at the neck.
 void hair_render_set_mesh(struct hair_render* render, const struct head_mesh* mesh, bool whole);
