@@ -3,7 +3,6 @@
 #include "tools/bench/bench.h"
 #include "tools/common/file.h"
 #include "tools/common/stats.h"
-#include "tools/common/groom_source.h"
 
 #include <epoxy/gl.h>
 #include <signal.h>

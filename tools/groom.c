@@ -15,20 +15,6 @@ static const hair_host host = {NULL, NULL, hair_print_log, TOOL};
 
 // Reading and writing -----------------------------------------------------------------------------
 
-static int exit_code(hair_result result)
-{
-    switch (result) {
-    case HAIR_OK: return HAIR_EXIT_OK;
-    case HAIR_ERROR_ARGUMENT: return HAIR_EXIT_USAGE;
-    case HAIR_ERROR_FILE: return HAIR_EXIT_INPUT;
-    case HAIR_ERROR_CONTEXT_LOST:
-    case HAIR_ERROR_OPENGL: return HAIR_EXIT_OPENGL;
-    case HAIR_ERROR_MEMORY:
-    case HAIR_ERROR_VERSION: break;
-    }
-    return HAIR_EXIT_RUNTIME;
-}
-
 static int read_asset(const char* path, const struct hair_groom_options* options, hair_asset** out)
 {
     struct hair_bytes bytes;
@@ -39,7 +25,7 @@ static int read_asset(const char* path, const struct hair_groom_options* options
     desc.import = &options->import;
     hair_result result = hair_asset_read(&desc, bytes.data, bytes.size, out);
     free(bytes.data);
-    return exit_code(result);
+    return hair_exit_for(result);
 }
 
 // Find the format by the end of a name. A name without an end is taken for .hair.
@@ -122,7 +108,7 @@ static int write_asset(const hair_asset* asset, const struct hair_groom_options*
     hair_result result = hair_asset_write(asset, format, NULL, 0, &size);
     if (result == HAIR_ERROR_ARGUMENT && format == HAIR_FORMAT_TFX4)
         hair_complain(TOOL, "%s was not written: give --vertices 4, 8, 16, 32 or 64", path);
-    if (result) return exit_code(result);
+    if (result) return hair_exit_for(result);
 
     void* bytes = malloc(size);
     if (!bytes) {
@@ -130,7 +116,7 @@ static int write_asset(const hair_asset* asset, const struct hair_groom_options*
         return HAIR_EXIT_RUNTIME;
     }
     result = hair_asset_write(asset, format, bytes, size, &size);
-    int code = result ? exit_code(result) : write_bytes(path, bytes, size);
+    int code = result ? hair_exit_for(result) : write_bytes(path, bytes, size);
     free(bytes);
     if (!code) report_losses(path, format, asset);
     return code;
@@ -256,7 +242,7 @@ static int run_info(const struct hair_groom_options* options)
         result = print_groom(asset);
     }
     hair_asset_destroy(asset);
-    return exit_code(result);
+    return hair_exit_for(result);
 }
 
 static int run_convert(const struct hair_groom_options* options)
@@ -274,7 +260,7 @@ static int run_generate(const struct hair_groom_options* options)
     hair_style_desc style = options->style;
     style.host = &host;
     hair_result result = hair_asset_generate(&style, &asset);
-    int code = result ? exit_code(result) : write_asset(asset, options);
+    int code = result ? hair_exit_for(result) : write_asset(asset, options);
     hair_asset_destroy(asset);
     return code;
 }

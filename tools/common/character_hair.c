@@ -2,7 +2,6 @@
 // hair collides with.
 #include "tools/common/character.h"
 #include "tools/common/file.h"
-#include "tools/common/groom_source.h"
 
 #include <cglm/cglm.h>
 

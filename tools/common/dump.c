@@ -1,6 +1,5 @@
 // dump.c - A file of the positions of all strands in every frame, for hair-convert.
 #include "tools/common/dump.h"
-#include "tools/common/groom_source.h"
 
 #include <stdlib.h>
 #include <string.h>

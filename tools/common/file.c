@@ -1,4 +1,4 @@
-// file.c - Reading of whole files, atomic output files, and error messages of a tool.
+// file.c - Reading of whole files, atomic output files, error messages and exit statuses of a tool.
 #define _XOPEN_SOURCE 700
 #include "tools/common/file.h"
 
@@ -12,6 +12,20 @@
 #include <strings.h>
 #include <sys/stat.h>
 #include <unistd.h>
+
+int hair_exit_for(hair_result result)
+{
+    switch (result) {
+    case HAIR_OK: return HAIR_EXIT_OK;
+    case HAIR_ERROR_ARGUMENT: return HAIR_EXIT_USAGE;
+    case HAIR_ERROR_FILE: return HAIR_EXIT_INPUT;
+    case HAIR_ERROR_CONTEXT_LOST:
+    case HAIR_ERROR_OPENGL: return HAIR_EXIT_OPENGL;
+    case HAIR_ERROR_MEMORY:
+    case HAIR_ERROR_VERSION: break;
+    }
+    return HAIR_EXIT_RUNTIME;
+}
 
 // Earlier writes that overflowed the buffer may have failed already, therefore check ferror too.
 int hair_flush(const char* tool)

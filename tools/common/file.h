@@ -1,4 +1,4 @@
-// file.h - Reading of whole files, atomic output files, and error messages of a tool.
+// file.h - Reading of whole files, atomic output files, error messages and exit statuses of a tool.
 //
 // A function that fails prints "TOOL: sentence" to stderr before it returns.
 #ifndef HAIR_TOOLS_COMMON_FILE_H
@@ -11,6 +11,9 @@
 
 // Exit statuses of every tool.
 enum { HAIR_EXIT_OK = 0, HAIR_EXIT_RUNTIME, HAIR_EXIT_USAGE, HAIR_EXIT_OPENGL, HAIR_EXIT_INPUT };
+
+// Return the exit status of a tool for a result of the library.
+int hair_exit_for(hair_result result);
 
 // Print a message. Use this as hair_host.log with the tool's name, such as "hair-groom", as user.
 // HAIR_LOG_INFO is not printed.

@@ -8,18 +8,6 @@
 #define MAX_BYTES ((size_t)4 << 30)
 #define FUR_VERTICES 8
 
-int hair_exit_for(hair_result result)
-{
-    switch (result) {
-    case HAIR_OK: return HAIR_EXIT_OK;
-    case HAIR_ERROR_ARGUMENT: return HAIR_EXIT_USAGE;
-    case HAIR_ERROR_FILE: return HAIR_EXIT_INPUT;
-    case HAIR_ERROR_CONTEXT_LOST:
-    case HAIR_ERROR_OPENGL: return HAIR_EXIT_OPENGL;
-    default: return HAIR_EXIT_RUNTIME;
-    }
-}
-
 // Create a groom with the maps and the attributes of a scene. A groom with images keeps its texture
 // coordinates, and has the maps of the scene at the vertices of the scalp.
 static int build_mapped(const struct hair_scene* scene, hair_groom_desc* desc, hair_groom** out)

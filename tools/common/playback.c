@@ -1,6 +1,5 @@
 // playback.c - Playback of a dump of guides as target poses of an instance.
 #include "tools/common/playback.h"
-#include "tools/common/groom_source.h"
 
 #include <math.h>
 #include <stdlib.h>

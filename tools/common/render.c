@@ -5,7 +5,6 @@
 #include "tools/common/frame_lights.h"
 #include "tools/common/render_mesh.h"
 #include "tools/common/shaders.h"
-#include "tools/common/groom_source.h"
 #include "tools/common/targets.h"
 
 #include <epoxy/gl.h>

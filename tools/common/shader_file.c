@@ -5,7 +5,6 @@
 #include <string.h>
 
 #include "tools/common/file.h"
-#include "tools/common/groom_source.h"
 
 #define MAX_SIZE ((size_t)1 << 20) // bytes
 
