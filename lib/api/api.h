@@ -237,8 +237,9 @@ hair_result hair_update_field(hair_instance* hair);
 void hair_choose_field_detail(hair_instance* hair);
 // Update the field as hair_update_field() does, but in the detail that was chosen last.
 hair_result hair_update_view_field(hair_instance* hair);
-// Update the field as hair_update_field() does, but for another pose of the head.
-hair_result hair_update_field_at(hair_instance* hair, const struct hair_pose* head);
+// Update the field for a step that ends with the head at `head`. What views and reads have written
+// does not change what is written.
+hair_result hair_update_field_for_step(hair_instance* hair, const struct hair_pose* head);
 
 // Read the vertices of followers near a shape in full detail. Their positions and the shape are
 // from hair_sim.head_at_last_step. The caller frees the arrays, also on failure. Defined in view.c.

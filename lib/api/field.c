@@ -62,10 +62,9 @@ void hair_choose_field_detail(hair_instance* hair)
     set_doublings(hair, wanted);
 }
 
-static hair_result update_at(hair_instance* hair, const struct hair_pose* head)
+// Finish an update that ended with `result`.
+static hair_result finish_update(hair_instance* hair, hair_result result)
 {
-    const struct hair_collider_list* colliders = hair_sim_colliders(&hair->sim);
-    hair_result result = hair_field_update(&hair->field, colliders->collider, colliders->count, head);
     if (result) {
         // A failure clears the field, so hits of strands and light that it blocked are outdated.
         hair_geometry_set_blockers(&hair->geometry, NULL);
@@ -74,20 +73,25 @@ static hair_result update_at(hair_instance* hair, const struct hair_pose* head)
     return result;
 }
 
-hair_result hair_update_field_at(hair_instance* hair, const struct hair_pose* head)
+hair_result hair_update_field_for_step(hair_instance* hair, const struct hair_pose* head)
 {
+    const struct hair_collider_list* colliders = hair_sim_colliders(&hair->sim);
     set_doublings(hair, 0);
-    return update_at(hair, head);
+    return finish_update(
+        hair, hair_field_update_for_step(&hair->field, colliders->collider, colliders->count, head));
 }
 
 hair_result hair_update_field(hair_instance* hair)
 {
-    return hair_update_field_at(hair, &hair->sim.head_at_last_step);
+    set_doublings(hair, 0);
+    return hair_update_view_field(hair);
 }
 
 hair_result hair_update_view_field(hair_instance* hair)
 {
-    return update_at(hair, &hair->sim.head_at_last_step);
+    const struct hair_collider_list* colliders = hair_sim_colliders(&hair->sim);
+    return finish_update(hair, hair_field_update(&hair->field, colliders->collider, colliders->count,
+                                                 &hair->sim.head_at_last_step));
 }
 
 hair_result hair_get_field(hair_instance* hair, hair_field_info* out)

@@ -91,7 +91,7 @@ static hair_result step(hair_instance* hair, double time)
     else
         hair->sim.head = hair->pace.head;
     // The field is that at the end of the step, because it moves along with the head.
-    if (hair_wind_coupling_is_on(&hair->sim)) result = hair_update_field_at(hair, &hair->sim.head);
+    if (hair_wind_coupling_is_on(&hair->sim)) result = hair_update_field_for_step(hair, &hair->sim.head);
     if (!result) result = hair_sim_step(&hair->sim, time + hair->pace.pending);
     hair->sim.head = next;
     if (result) return result;

@@ -15,7 +15,7 @@ void hair_field_create(struct hair_collider_field* field, struct hair_sdf_pool* 
     field->box = hair_field_box_of(groom, voxel);
 }
 
-// Free everything and return to the state after hair_field_create().
+// Free everything that views may change, and return to the state after hair_field_create().
 static void clear(struct hair_collider_field* field)
 {
     struct hair_gl* gl = field->gl;
@@ -29,8 +29,13 @@ static void clear(struct hair_collider_field* field)
     hair_free(&gl->host, field->dirty);
     hair_free(&gl->host, field->brick_colliders);
     hair_free(&gl->host, field->best);
-    *field = (struct hair_collider_field){
-        .gl = gl, .sdf_pool = field->sdf_pool, .box = field->box, .writes = field->writes + 1};
+    *field = (struct hair_collider_field){.gl = gl,
+                                          .sdf_pool = field->sdf_pool,
+                                          .box = field->box,
+                                          .writes = field->writes + 1,
+                                          .stepped = field->stepped,
+                                          .stepped_count = field->stepped_count,
+                                          .stepped_room = field->stepped_room};
 }
 
 void hair_field_set_voxel(struct hair_collider_field* field, const struct hair_groom* groom, float voxel)
@@ -41,7 +46,11 @@ void hair_field_set_voxel(struct hair_collider_field* field, const struct hair_g
 
 void hair_field_destroy(struct hair_collider_field* field)
 {
-    if (field->gl) clear(field);
+    if (!field->gl) return;
+    clear(field);
+    hair_free(&field->gl->host, field->stepped);
+    field->stepped = NULL;
+    field->stepped_count = field->stepped_room = 0;
 }
 
 static hair_result make_field(struct hair_collider_field* field)
@@ -70,18 +79,19 @@ static hair_result make_field(struct hair_collider_field* field)
 
 // Placing -----------------------------------------------------------------------------------------
 
-static hair_result reserve_colliders(struct hair_collider_field* field, uint32_t count)
+// Make room for `count` colliders in an array that has `used` of them.
+static hair_result reserve_colliders(const hair_host* host, struct hair_placed_collider** array,
+                                     uint32_t used, uint32_t* room, uint32_t count)
 {
-    HAIR_ASSERT(field->count <= field->room);
-    if (count <= field->room) return HAIR_OK;
-    const hair_host* host = &field->gl->host;
-    uint32_t room = count < 16 ? 16 : count + count / 2;
-    struct hair_placed_collider* placed = hair_alloc(host, room, sizeof *placed);
+    HAIR_ASSERT(used <= *room);
+    if (count <= *room) return HAIR_OK;
+    uint32_t more = count < 16 ? 16 : count + count / 2;
+    struct hair_placed_collider* placed = hair_alloc(host, more, sizeof *placed);
     if (!placed) return hair_fail_memory(host, "colliders in the field");
-    if (field->count) memcpy(placed, field->placed, field->count * sizeof *placed);
-    hair_free(host, field->placed);
-    field->placed = placed;
-    field->room = room;
+    if (used) memcpy(placed, *array, used * sizeof *placed);
+    hair_free(host, *array);
+    *array = placed;
+    *room = more;
     return HAIR_OK;
 }
 
@@ -100,10 +110,23 @@ static hair_result replace(struct hair_collider_field* field, struct hair_placed
     return HAIR_OK;
 }
 
+// Place a collider for a step. The place depends on earlier steps only, and not on views that wrote
+// the field since.
+static struct hair_placed_collider place_for_step(struct hair_collider_field* field,
+                                                  const hair_collider* collider, uint32_t i,
+                                                  const struct hair_pose* head)
+{
+    struct hair_placed_collider now = hair_field_place(&field->box, collider, i, head);
+    if (i < field->stepped_count && !hair_field_has_moved(&field->box, &field->stepped[i], &now))
+        hair_field_keep_pose(&field->box, &field->stepped[i], &now);
+    field->stepped[i] = now;
+    return now;
+}
+
 // Place all colliders at their current transforms. Mark the bricks that they leave and enter, if
 // the field exists.
 static hair_result place_all(struct hair_collider_field* field, const hair_collider* colliders,
-                             uint32_t count, const struct hair_pose* head)
+                             uint32_t count, const struct hair_pose* head, bool is_step)
 {
     hair_result result = HAIR_OK;
     uint32_t max = count > field->count ? count : field->count, near = 0;
@@ -113,8 +136,11 @@ static hair_result place_all(struct hair_collider_field* field, const hair_colli
         struct hair_placed_collider* placed = &field->placed[i];
         int was = i < field->count, is = i < count;
         struct hair_placed_collider now = {0};
-        if (is) now = hair_field_place(&field->box, &colliders[i], i, head);
-        if (!was || !is || hair_field_has_moved(&field->box, placed, &now)) {
+        if (is)
+            now = is_step ? place_for_step(field, &colliders[i], i, head)
+                          : hair_field_place(&field->box, &colliders[i], i, head);
+        if (!was || !is ||
+            (is_step ? hair_field_differs(placed, &now) : hair_field_has_moved(&field->box, placed, &now))) {
             if (was && field->dirty) hair_field_mark_dirty(field, placed);
             if (is && field->dirty) hair_field_mark_dirty(field, &now);
             result = replace(field, placed, &now);
@@ -123,6 +149,7 @@ static hair_result place_all(struct hair_collider_field* field, const hair_colli
     }
     field->count = result ? max : count;
     field->near = near;
+    if (is_step) field->stepped_count = count;
     return result;
 }
 
@@ -255,10 +282,13 @@ static int is_same(hair_quat a, hair_quat b)
 
 // Update the field, which has colliders. A failure leaves it half written.
 static hair_result update(struct hair_collider_field* field, const hair_collider* colliders, uint32_t count,
-                          const struct hair_pose* head)
+                          const struct hair_pose* head, bool is_step)
 {
-    HAIR_TRY(reserve_colliders(field, count));
-    HAIR_TRY(place_all(field, colliders, count, head));
+    const hair_host* host = &field->gl->host;
+    HAIR_TRY(reserve_colliders(host, &field->placed, field->count, &field->room, count));
+    if (is_step)
+        HAIR_TRY(reserve_colliders(host, &field->stepped, field->stepped_count, &field->stepped_room, count));
+    HAIR_TRY(place_all(field, colliders, count, head, is_step));
     if (field->near && !field->distance) {
         HAIR_TRY(make_field(field));
         write_params(field, head->rotation);
@@ -268,16 +298,29 @@ static hair_result update(struct hair_collider_field* field, const hair_collider
     return write_marked(field);
 }
 
-hair_result hair_field_update(struct hair_collider_field* field, const hair_collider* colliders,
-                              uint32_t count, const struct hair_pose* head)
+static hair_result update_or_clear(struct hair_collider_field* field, const hair_collider* colliders,
+                                   uint32_t count, const struct hair_pose* head, bool is_step)
 {
     if (!count) {
         if (field->placed) clear(field);
+        if (is_step) field->stepped_count = 0;
         return HAIR_OK;
     }
-    hair_result result = update(field, colliders, count, head);
+    hair_result result = update(field, colliders, count, head, is_step);
     if (result) clear(field);
     return result;
+}
+
+hair_result hair_field_update(struct hair_collider_field* field, const hair_collider* colliders,
+                              uint32_t count, const struct hair_pose* head)
+{
+    return update_or_clear(field, colliders, count, head, false);
+}
+
+hair_result hair_field_update_for_step(struct hair_collider_field* field, const hair_collider* colliders,
+                                       uint32_t count, const struct hair_pose* head)
+{
+    return update_or_clear(field, colliders, count, head, true);
 }
 
 struct hair_field_collider hair_field_shown(const struct hair_collider_field* field,

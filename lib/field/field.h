@@ -23,6 +23,8 @@ struct hair_collider_field {
     hair_quat rotation; // Rotation of the head in `params`.
     struct hair_placed_collider* placed; // Colliders as written.
     uint32_t count, room;
+    struct hair_placed_collider* stepped; // Colliders as the last step wrote them.
+    uint32_t stepped_count, stepped_room;
     uint32_t near; // Number of colliders that reach into the box.
     unsigned char* dirty; // Per brick, nonzero if it must be written.
     uint32_t* brick_colliders; // Member count or place, per brick.
@@ -42,6 +44,11 @@ void hair_field_destroy(struct hair_collider_field* field);
 // while no collider is near.
 hair_result hair_field_update(struct hair_collider_field* field, const hair_collider* colliders,
                               uint32_t count, const struct hair_pose* head);
+
+// Update the field for a step, whose motion depends on it. What views wrote since the last step has
+// no effect on what is written.
+hair_result hair_field_update_for_step(struct hair_collider_field* field, const hair_collider* colliders,
+                                       uint32_t count, const struct hair_pose* head);
 
 // Return collider i as shaders read it, and its extent. A collision mesh that differs from the last
 // update has an empty extent.

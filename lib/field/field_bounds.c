@@ -182,6 +182,20 @@ struct hair_placed_collider hair_field_place(const struct hair_field_box* box, c
     return placed;
 }
 
+bool hair_field_differs(const struct hair_placed_collider* a, const struct hair_placed_collider* b)
+{
+    return a->mesh != b->mesh || a->generation != b->generation ||
+           memcmp(&a->collider, &b->collider, sizeof a->collider) != 0;
+}
+
+void hair_field_keep_pose(const struct hair_field_box* box, const struct hair_placed_collider* earlier,
+                          struct hair_placed_collider* placed)
+{
+    placed->collider.position = earlier->collider.position;
+    placed->collider.rotation = earlier->collider.rotation;
+    find_bricks(box, placed);
+}
+
 int hair_field_has_moved(const struct hair_field_box* box, const struct hair_placed_collider* from,
                          const struct hair_placed_collider* to)
 {

@@ -45,6 +45,13 @@ struct hair_placed_collider hair_field_place(const struct hair_field_box* box, c
 int hair_field_has_moved(const struct hair_field_box* box, const struct hair_placed_collider* from,
                          const struct hair_placed_collider* to);
 
+// Return whether two placed colliders differ in any bit.
+bool hair_field_differs(const struct hair_placed_collider* a, const struct hair_placed_collider* b);
+
+// Move a collider to the pose of an earlier one.
+void hair_field_keep_pose(const struct hair_field_box* box, const struct hair_placed_collider* earlier,
+                          struct hair_placed_collider* placed);
+
 // Compute the box around a collider in its own axes. A plane gets a part that is worth drawing.
 void hair_field_shown_extent(const struct hair_placed_collider* placed, hair_vec3* lower, hair_vec3* upper);
 

@@ -204,6 +204,42 @@ static void saved_fluid_wind_continues_bit_for_bit(void** state)
     hair_test_die(&living), hair_test_die(&other);
 }
 
+// Move a ball by less than the field resolves. Read followers, which are pushed out of the ball,
+// while the ball is farther away between steps. Both runs read, because reads count as views.
+static void reading_followers_between_steps_keeps_the_motion(void** state)
+{
+    struct hair_test_living living, other;
+    struct hair_test_living* const both[] = {&living, &other};
+    float position[3];
+    hair_wind wind = blowing(4, HAIR_WIND_FLUID);
+    wind.fluid.resolution = 16;
+    hair_collider ball = hair_test_body(HAIR_SHAPE_SPHERE, 0, 0, 0);
+    ball.size[0] = 0.1f;
+    for (int k = 0; k < 2; ++k) {
+        begin(*state, HAIR_SOLVER_DIRECT, both[k]);
+        hair_test_wind_coupling(both[k], &wind);
+        hair_test_wait(both[k], 1);
+        float voxel = both[k]->hair->field.box.voxel;
+        for (int i = 0; i < 8; ++i) {
+            uint32_t count, before = both[k]->hair->field.writes;
+            hair_read_source source = k ? HAIR_READ_FOLLOWERS : HAIR_READ_GUIDES;
+            ball.position[1] = 0.015f * voxel;
+            hair_test_set_colliders(both[k], &ball, 1);
+            hair_test_ok(*state, hair_read_positions(both[k]->hair, source, position, 1, &count));
+            assert_int_equal(both[k]->hair->field.writes - before, k);
+            ball.position[1] = 0.008f * voxel;
+            hair_test_set_colliders(both[k], &ball, 1);
+            hair_test_wait(both[k], 1);
+        }
+    }
+    struct hair_test_blob without = hair_test_save(*state, living.hair),
+                          with = hair_test_save(*state, other.hair);
+    assert_int_equal(with.size, without.size);
+    assert_memory_equal(with.bytes, without.bytes, with.size);
+    free(with.bytes), free(without.bytes);
+    hair_test_die(&living), hair_test_die(&other);
+}
+
 // Load the state of another haircut after the wind has been set. Check that the fluid is as it was.
 static void check_refused_load(struct hair_test_living* living, const hair_wind* wind)
 {
@@ -248,6 +284,7 @@ int main(void)
         HAIR_TEST(fluid_wind_costs_nothing_when_off),
         HAIR_TEST(hair_stays_finite_in_any_wind),
         HAIR_TEST(saved_fluid_wind_continues_bit_for_bit),
+        HAIR_TEST(reading_followers_between_steps_keeps_the_motion),
         HAIR_TEST(refused_load_keeps_the_air),
     };
     return cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);
