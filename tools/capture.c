@@ -10,8 +10,9 @@
 #include "tools/common/cuts.h"
 #include "tools/common/frame_hash.h"
 #include "tools/common/interrupt.h"
+#include "tools/common/live_colliders.h"
 #include "tools/common/playback.h"
-#include "tools/common/render.h"
+#include "tools/common/scene_mesh.h"
 #include "tools/common/shader_file.h"
 #include "tools/common/stats.h"
 #include "tools/common/groom_source.h"
@@ -36,11 +37,8 @@ struct capture {
     hair_instance* hair;
     hair_shader* shader; // NULL uses the library's shading
     struct hair_world* world; // NULL if the scene has no Bullet objects
-    hair_collider* colliders;
-    uint32_t collider_count;
+    struct hair_live_colliders colliders;
     struct hair_cut_pieces pieces;
-    uint32_t collider_room;
-    hair_collision_mesh* head[HEAD_MESHES]; // of the built-in head, NULL if none is drawn
     struct hair_character* character; // NULL if the scene has none
     float eye[3], target[3]; // of the camera at the start of the scene, m
     struct hair_render* render;
@@ -103,12 +101,7 @@ static int make_groom(struct capture* capture)
     if (!hair_groups_check(TOOL, &scene->settings, info->group_count))
         return exit_for_settings(capture, HAIR_EXIT_USAGE);
 
-    struct hair_bounds bounds = {{info->lower[0], info->lower[1], info->lower[2]},
-                                 {info->upper[0], info->upper[1], info->upper[2]}};
-    if (!scene->head && !scene->pivot_is_said)
-        for (int i = 0; i < 3; ++i) scene->motion.pivot[i] = 0.5f * (bounds.lower[i] + bounds.upper[i]);
-    // Hair swings beyond its bounds at rest.
-    capture->reach = 1.15f * hair_camera_reach(scene, &bounds);
+    struct hair_bounds bounds = hair_camera_measure(info, scene, &capture->reach);
     if (capture->character) hair_character_bounds(capture->character, &bounds);
     if (!scene->framed) hair_camera_frame(scene, &bounds);
     memcpy(capture->eye, scene->eye, sizeof capture->eye);
@@ -127,28 +120,6 @@ static int make_opengl(struct capture* capture)
     return hair_exit_for(hair_context_create(&desc, &capture->context));
 }
 
-static int make_mesh(struct capture* capture)
-{
-    const struct hair_scene* scene = &capture->options.scene;
-    struct head_mesh mesh;
-    bool ball = scene->subject == HAIR_SUBJECT_FUR;
-    if (capture->character) {
-        hair_render_set_mesh(capture->render, &capture->character->mesh, true);
-        return HAIR_EXIT_OK;
-    }
-    if (!scene->head && !ball) return HAIR_EXIT_OK;
-    if (scene->head ? head_mesh_create(&mesh) : hair_head_rig_ball(scene->ball_radius, &mesh)) {
-        hair_complain(TOOL, "out of memory for the head");
-        return HAIR_EXIT_RUNTIME;
-    }
-    hair_render_set_mesh(capture->render, &mesh, !scene->head);
-    head_mesh_free(&mesh);
-    // The solver by red-black projection knows no meshes.
-    bool meshes = scene->head && scene->settings.desc.solver != HAIR_SOLVER_REDBLACK;
-    if (meshes && head_collision_meshes_create(&capture->host, capture->head)) return HAIR_EXIT_RUNTIME;
-    return HAIR_EXIT_OK;
-}
-
 static int make_render(struct capture* capture)
 {
     const struct hair_capture_options* options = &capture->options;
@@ -158,17 +129,7 @@ static int make_render(struct capture* capture)
                                     .supersample = options->supersample,
                                     .linear = capture->outputs.frames.kind == HAIR_FRAME_WRITER_EXR};
     int code = hair_render_create(TOOL, &desc, &capture->render);
-    return code ? code : make_mesh(capture);
-}
-
-static bool reserve_colliders(struct capture* capture, uint32_t count)
-{
-    if (count <= capture->collider_room) return true;
-    hair_collider* more = realloc(capture->colliders, count * sizeof *more);
-    if (!more) return false;
-    capture->colliders = more;
-    capture->collider_room = count;
-    return true;
+    return code ? code : hair_scene_set_mesh(TOOL, &options->scene, capture->character, capture->render);
 }
 
 // Set the scene's colliders and those of Bullet objects that the hair can reach.
@@ -180,18 +141,12 @@ static hair_result set_colliders(struct capture* capture, float time, const floa
     hair_result result = hair_get_bounds(capture->hair, lower, upper);
     if (!result)
         result = hair_world_colliders(capture->world, time, transform, lower, upper, &others, &other_count);
+    struct hair_live_colliders* colliders = &capture->colliders;
+    if (!result)
+        result = hair_live_colliders_place(colliders, &capture->options.scene, capture->character, time,
+                                           transform, others, other_count);
     if (result) return result;
-    if (!reserve_colliders(capture, HAIR_HEAD_RIG_COLLIDERS + 1 + other_count)) {
-        hair_complain(TOOL, "out of memory for %u colliders", other_count);
-        return HAIR_ERROR_MEMORY;
-    }
-    uint32_t count =
-        hair_head_rig_colliders(&capture->options.scene, capture->head, time, transform, capture->colliders);
-    if (capture->character) capture->colliders[count++] = hair_character_collider(capture->character);
-    if (other_count) memcpy(capture->colliders + count, others, other_count * sizeof *others);
-    count += other_count;
-    capture->collider_count = count;
-    return hair_set_colliders(capture->hair, capture->colliders, count, sizeof *capture->colliders);
+    return hair_set_colliders(capture->hair, colliders->at, colliders->count, sizeof *colliders->at);
 }
 
 static int make_shader(struct capture* capture)
@@ -260,7 +215,7 @@ static hair_result step(struct capture* capture, uint32_t frame)
         float dt = 1 / (scene->fps * (float)parts);
         if (!result) result = hair_step(capture->hair, dt);
         if (!result)
-            result = hair_cuts_step(&capture->pieces, capture->colliders, capture->collider_count, dt);
+            result = hair_cuts_step(&capture->pieces, capture->colliders.at, capture->colliders.count, dt);
     }
     return result;
 }
@@ -400,7 +355,7 @@ static void destroy(struct capture* capture)
     hair_destroy(capture->hair);
     hair_world_destroy(capture->world);
     hair_character_destroy(capture->character);
-    for (int i = 0; i < HEAD_MESHES; ++i) hair_collision_mesh_destroy(capture->head[i]);
+    hair_live_colliders_free(&capture->colliders);
     // The context may be lost, and Epoxy aborts if a function is first called in a lost context.
     hair_render_abandon(capture->render);
     hair_shader_destroy(capture->shader);
@@ -410,7 +365,6 @@ static void destroy(struct capture* capture)
     hair_playback_free(&capture->cache);
     hair_stats_free(&capture->stats);
     hair_frame_hash_free(&capture->hash);
-    free(capture->colliders);
     hair_scene_free(&capture->options.scene);
     free(capture);
 }
@@ -427,6 +381,8 @@ int main(int count, char** arguments)
     if (code < 0) {
         capture->host.log = capture->options.verbose ? say_all : hair_print_log;
         capture->host.user = (void*)(uintptr_t)TOOL;
+        capture->colliders.tool = TOOL;
+        capture->colliders.host = &capture->host;
         code = run(capture);
     }
     destroy(capture);

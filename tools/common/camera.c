@@ -52,6 +52,20 @@ float hair_camera_reach(const struct hair_scene* scene, const struct hair_bounds
     return fmaxf(sqrtf(sum), 1e-4f);
 }
 
+struct hair_bounds hair_camera_measure(const hair_groom_info* info, struct hair_scene* scene, float* reach)
+{
+    struct hair_bounds bounds;
+    for (int i = 0; i < 3; ++i) {
+        bounds.lower[i] = info->lower[i];
+        bounds.upper[i] = info->upper[i];
+        if (!scene->head && !scene->pivot_is_said)
+            scene->motion.pivot[i] = 0.5f * (bounds.lower[i] + bounds.upper[i]);
+    }
+    // Hair swings beyond its bounds at rest.
+    *reach = 1.15f * hair_camera_reach(scene, &bounds);
+    return bounds;
+}
+
 static void copy_in(const float from[3], vec3 to)
 {
     memcpy(to, from, 3 * sizeof(float));

@@ -22,6 +22,9 @@ void hair_camera_frame(struct hair_scene* scene, const struct hair_bounds* bound
 // Return the radius of the sphere about the head's pivot that contains everything the head can
 // reach.
 float hair_camera_reach(const struct hair_scene* scene, const struct hair_bounds* bounds);
+// Return the bounds of a haircut at rest. Set the pivot of a scene without one, and the radius that
+// the head and its swinging hair can reach.
+struct hair_bounds hair_camera_measure(const hair_groom_info* info, struct hair_scene* scene, float* reach);
 // Compute the centre of that sphere, the pivot under the head's transform.
 void hair_camera_pivot(const struct hair_scene* scene, const float transform[16], float out[3]);
 

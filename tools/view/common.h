@@ -14,8 +14,10 @@ extern "C" {
 #include "tools/common/frame_writer.h"
 #include "tools/common/groom_source.h"
 #include "tools/common/groups.h"
+#include "tools/common/live_colliders.h"
 #include "tools/common/render.h"
 #include "tools/common/scene.h"
+#include "tools/common/scene_mesh.h"
 #include "tools/common/scene_write.h"
 #include "tools/common/stats.h"
 }

@@ -234,8 +234,8 @@ void view_reference_add(view_reference& reference, const view_session& session, 
     for (int i = 0; i < 3; ++i) frame.wind[i] = (double)wind.velocity[i];
     // Meshes of Bullet objects may be gone when the thread reads the frame.
     for (const hair_collider& collider : session.colliders)
-        if (collider.shape != HAIR_SHAPE_MESH || collider.mesh == session.head[0] ||
-            collider.mesh == session.head[1])
+        if (collider.shape != HAIR_SHAPE_MESH || collider.mesh == session.live_colliders.head[0] ||
+            collider.mesh == session.live_colliders.head[1])
             frame.colliders.push_back(collider);
     for (const view_followed& guide : reference.guides) {
         const float* from = &positions[3 * (size_t)guide.first];

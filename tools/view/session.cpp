@@ -29,27 +29,10 @@ bool groom_differs(const hair_scene& a, const hair_scene& b)
            differs(a.character, b.character);
 }
 
-// Find the bounds of a haircut at rest. Set the pivot of a scene without one, and the reach.
-hair_bounds measure(const hair_groom* groom, hair_scene& scene, float& reach)
-{
-    hair_groom_info info = hair_groom_info_default();
-    hair_bounds bounds;
-    hair_groom_describe(groom, &info);
-    for (int i = 0; i < 3; ++i) {
-        bounds.lower[i] = info.lower[i];
-        bounds.upper[i] = info.upper[i];
-        if (!scene.head && !scene.pivot_is_said)
-            scene.motion.pivot[i] = 0.5f * (bounds.lower[i] + bounds.upper[i]);
-    }
-    // Hair swings beyond its bounds at rest.
-    reach = 1.15f * hair_camera_reach(&scene, &bounds);
-    return bounds;
-}
-
 // Set what depends on the size of the haircut.
 void fit(view_session& session, hair_scene& scene)
 {
-    hair_bounds bounds = measure(session.groom, scene, session.reach);
+    hair_bounds bounds = hair_camera_measure(&session.info, &scene, &session.reach);
     if (session.character) hair_character_bounds(session.character, &bounds);
     if (!scene.framed) hair_camera_frame(&scene, &bounds);
 }
@@ -63,18 +46,13 @@ hair_result set_colliders(view_session& session, const hair_scene& scene)
     if (!result)
         result =
             hair_world_colliders(session.world, time, session.transform, lower, upper, &others, &other_count);
+    hair_live_colliders& live = session.live_colliders;
+    if (!result)
+        result = hair_live_colliders_place(&live, &scene, session.character, time, session.transform, others,
+                                           other_count);
     if (result) return result;
-    // The solver by red-black projection knows no meshes.
-    bool meshes = scene.head && scene.settings.desc.solver != HAIR_SOLVER_REDBLACK;
-    if (meshes && !session.head[0] && head_collision_meshes_create(&session.host, session.head))
-        return HAIR_ERROR_MEMORY;
-    session.colliders.resize(HAIR_HEAD_RIG_COLLIDERS + 1 + other_count);
-    uint32_t count = hair_head_rig_colliders(&scene, meshes ? session.head : nullptr, time, session.transform,
-                                             session.colliders.data());
-    if (session.character) session.colliders[count++] = hair_character_collider(session.character);
-    std::copy(others, others + other_count, session.colliders.begin() + count);
-    count += other_count;
-    session.colliders.resize(count);
+    uint32_t count = live.count;
+    session.colliders.assign(live.at, live.at + count);
     // Keys of a new generation, because colliders must not sweep through hair that was put at rest.
     for (uint32_t i = 0; i < count; ++i) {
         uint64_t& key = session.colliders[i].key;
@@ -118,7 +96,9 @@ hair_result create_body(view_session& session, hair_scene& scene, const hair_gro
 {
     if (character.body) return HAIR_OK;
     float reach;
-    measure(groom, scene, reach);
+    hair_groom_info info = hair_groom_info_default();
+    hair_groom_describe(groom, &info);
+    hair_camera_measure(&info, &scene, &reach);
     return hair_character_create_body(&character, session.context, scene.motion.pivot, reach);
 }
 
@@ -266,6 +246,8 @@ int view_session_open(const hair_host& host, void* (*get_proc)(const char*, void
 {
     hair_context_desc desc = hair_context_desc_default();
     out.host = host;
+    out.live_colliders.tool = TOOL;
+    out.live_colliders.host = &out.host;
     desc.host = &out.host;
     desc.get_proc = get_proc;
     desc.timings = true;
@@ -281,7 +263,7 @@ void view_session_close(view_session& session)
     hair_world_destroy(session.world);
     destroy_renders(session);
     hair_character_destroy(session.character);
-    for (hair_collision_mesh* mesh : session.head) hair_collision_mesh_destroy(mesh);
+    hair_live_colliders_free(&session.live_colliders);
     hair_context_destroy(session.context);
     hair_groom_destroy(session.groom);
 }

@@ -34,8 +34,8 @@ struct view_session {
     hair_groom_info info = {};
     std::unique_ptr<hair_scene> applied; // scene that the hair has now
     std::string name; // name of the scene, for messages
-    std::vector<hair_collider> colliders;
-    hair_collision_mesh* head[HEAD_MESHES] = {}; // of the built-in head, made when one is shown
+    hair_live_colliders live_colliders = {};
+    std::vector<hair_collider> colliders; // with keys of this generation
     std::vector<hair_pin> pins; // strands that the mouse holds
     hair_cut_pieces pieces = {}; // strands that were cut off, oldest first
     float fall_times[HAIR_SCENE_CUTS] = {}; // since the cut of each of them, s

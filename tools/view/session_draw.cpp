@@ -9,24 +9,6 @@
 namespace
 {
 
-int make_mesh(const view_session& session, hair_render* render, const hair_scene& scene)
-{
-    if (session.character) {
-        hair_render_set_mesh(render, &session.character->mesh, true);
-        return HAIR_EXIT_OK;
-    }
-    head_mesh mesh;
-    bool ball = scene.subject == HAIR_SUBJECT_FUR;
-    if (!scene.head && !ball) return HAIR_EXIT_OK;
-    if (scene.head ? head_mesh_create(&mesh) : hair_head_rig_ball(scene.ball_radius, &mesh)) {
-        hair_complain(TOOL, "out of memory for the head");
-        return HAIR_EXIT_RUNTIME;
-    }
-    hair_render_set_mesh(render, &mesh, !scene.head);
-    head_mesh_free(&mesh);
-    return HAIR_EXIT_OK;
-}
-
 // Make the renderer of a size, or keep the present one.
 int make_render(view_session& session, const hair_scene& scene, const hair_render_desc& desc,
                 view_render which)
@@ -39,7 +21,7 @@ int make_render(view_session& session, const hair_scene& scene, const hair_rende
     session.render_descs[which] = desc;
     int code = hair_render_create(TOOL, &desc, &render);
     session.render = render;
-    return code ? code : make_mesh(session, render, scene);
+    return code ? code : hair_scene_set_mesh(TOOL, &scene, session.character, render);
 }
 
 // Give the instance the look of a quality.

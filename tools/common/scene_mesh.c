@@ -1,0 +1,23 @@
+// scene_mesh.c - The mesh of a scene beside the hair: a character, the built-in head or a ball.
+#include "tools/common/scene_mesh.h"
+#include "tools/common/file.h"
+#include "tools/common/head_rig.h"
+
+int hair_scene_set_mesh(const char* tool, const struct hair_scene* scene,
+                        const struct hair_character* character, struct hair_render* render)
+{
+    struct head_mesh mesh;
+    bool ball = scene->subject == HAIR_SUBJECT_FUR;
+    if (character) {
+        hair_render_set_mesh(render, &character->mesh, true);
+        return HAIR_EXIT_OK;
+    }
+    if (!scene->head && !ball) return HAIR_EXIT_OK;
+    if (scene->head ? head_mesh_create(&mesh) : hair_head_rig_ball(scene->ball_radius, &mesh)) {
+        hair_complain(tool, "out of memory for the head");
+        return HAIR_EXIT_RUNTIME;
+    }
+    hair_render_set_mesh(render, &mesh, !scene->head);
+    head_mesh_free(&mesh);
+    return HAIR_EXIT_OK;
+}
