@@ -4,45 +4,19 @@
 
 #include <stdlib.h>
 
+#include "tests/support/refused_calls.h"
 #include "tests/support/tessellated.h"
 #include "tests/support/trace.h"
 #include "tests/support/ways.h"
 
-#define lost(call) hair_test_refused(f->test, call, HAIR_ERROR_CONTEXT_LOST, "the OpenGL context is lost")
+static const char* const words = "the OpenGL context is lost";
 
 // Check that every call that needs OpenGL says that the context is lost, and calls none.
 static void check_lost(struct hair_test_loss* f)
 {
-    hair_desc desc = hair_desc_default();
-    hair_solver_stats stats = hair_solver_stats_default();
-    hair_field_info field = hair_field_info_default();
-    hair_report_info report = hair_report_info_default();
-    hair_view view = hair_test_tessellated();
-    hair_shader_desc shader = hair_shader_desc_default();
-    hair_instance* other = NULL;
-    hair_shader* other_shader = NULL;
-    float positions[30] = {0};
-    uint32_t count = 0;
-    size_t size = 0;
-    bool ready = false;
-    shader.glsl = hair_test_loss_glsl;
     hair_test_trace_clear();
-    lost(hair_step(f->hair, 1.0f / 60));
-    lost(hair_draw(f->hair, &view));
-    lost(hair_step_list(&f->hair, 1, 1.0f / 60));
-    lost(hair_draw_list(&f->hair, 1, &view));
-    lost(hair_reset(f->hair));
-    lost(hair_teleport(f->hair, desc.transform));
-    lost(hair_precompile(f->hair, &view, &ready));
-    lost(hair_read_positions(f->hair, HAIR_READ_GUIDES, positions, 10, &count));
-    lost(hair_get_solver_stats(f->hair, &stats));
-    lost(hair_get_field(f->hair, &field));
-    lost(hair_report(f->hair, true, &report, NULL, 0, 0, &count));
-    lost(hair_save(f->hair, NULL, 0, &size));
-    lost(hair_load(f->hair, positions, sizeof positions));
-    lost(hair_context_reload(f->context));
-    lost(hair_create(f->context, f->groom, &desc, &other));
-    lost(hair_shader_create(f->context, &shader, &other_shader));
+    hair_test_refuse_calls(f->test, f->hair, HAIR_ERROR_CONTEXT_LOST, words);
+    hair_test_refuse_context_calls(f->test, f->context, f->groom, HAIR_ERROR_CONTEXT_LOST, words);
     if (hair_test_trace_count("")) fail_msg("a lost context was used:%s", hair_test_trace_list());
 }
 

@@ -3,11 +3,14 @@
 #include "tests/support/scene.h"
 
 #include "tests/support/meshes.h"
+#include "tests/support/refused_calls.h"
 #include "tests/support/trace.h"
 #include "tests/support/ways.h"
 #include "tests/support/tessellated.h"
 
-#define refused(result) hair_test_refused(f->test, result, HAIR_ERROR_ARGUMENT, "its context is destroyed or")
+#define refused(result) hair_test_refused(f->test, result, HAIR_ERROR_ARGUMENT, words)
+
+static const char* const words = "its context is destroyed or";
 
 static const char frost[] = "vec4 hair_shade(hair_fragment f) { return vec4(f.t, 0.5, 0.5, 1.0); }\n";
 
@@ -73,35 +76,6 @@ static void start(struct fixture* f, struct hair_test* test, int way)
     hair_test_trace_clear();
 }
 
-// Refuse the calls of lists, of cuts, of buffers, of contacts and of groups.
-static void check_others_refused(struct fixture* f)
-{
-    hair_view view = hair_test_tessellated();
-    hair_cut_desc cut = hair_cut_desc_default();
-    hair_buffers buffers = hair_buffers_default();
-    hair_target_blend blend = hair_target_blend_default();
-    hair_group_look group = hair_group_look_default();
-    hair_physics physics = hair_physics_default();
-    hair_collider_contact contact;
-    float positions[30] = {0};
-    uint32_t count = 0;
-    refused(hair_step_list(&f->hair, 1, 1.0f / 60));
-    refused(hair_draw_list(&f->hair, 1, &view));
-    refused(hair_cut(f->hair, &cut, NULL, NULL));
-    refused(hair_set_lengths(f->hair, 0, 1, positions));
-    refused(hair_get_lengths(f->hair, 0, 1, positions));
-    refused(hair_get_buffers(f->hair, HAIR_READ_FOLLOWERS, &buffers));
-    refused(hair_record_contacts(f->hair, 100));
-    refused(hair_get_contacts(f->hair, true, &contact, sizeof contact, 1, &count));
-    refused(hair_set_targets(f->hair, positions, 10, 12, NULL));
-    refused(hair_set_targets_buffer(f->hair, 1, 0, 12, NULL));
-    refused(hair_set_target_blend(f->hair, &blend));
-    refused(hair_set_group_look(f->hair, 0, &group));
-    refused(hair_get_group_look(f->hair, 0, &group));
-    refused(hair_set_group_physics(f->hair, 0, &physics));
-    refused(hair_get_group_physics(f->hair, 0, &physics));
-}
-
 // Refuse every call on the instance.
 static void check_refused(struct fixture* f)
 {
@@ -109,16 +83,15 @@ static void check_refused(struct fixture* f)
     hair_physics physics = hair_physics_default();
     hair_look look = hair_look_default();
     hair_wind wind = hair_wind_default();
-    hair_view view = hair_test_tessellated();
     hair_pin pin = hair_pin_default();
     hair_collider collider = hair_collider_default();
-    hair_solver_stats stats = hair_solver_stats_default();
-    hair_field_info field = hair_field_info_default();
+    hair_collider_contact contact;
     hair_report_info report = hair_report_info_default();
+    hair_target_blend blend = hair_target_blend_default();
+    hair_group_look group = hair_group_look_default();
     float positions[30] = {0};
     uint32_t count = 0;
-    size_t size = 0;
-    bool ready = false;
+    hair_test_refuse_calls(f->test, f->hair, HAIR_ERROR_ARGUMENT, words);
     refused(hair_set_physics(f->hair, &physics));
     refused(hair_get_physics(f->hair, &physics));
     refused(hair_set_look(f->hair, &look));
@@ -134,19 +107,16 @@ static void check_refused(struct fixture* f)
     refused(hair_set_scalp_weights(f->hair, NULL, NULL, 0, 0));
     refused(hair_set_scalp_joints(f->hair, positions, 1, NULL));
     refused(hair_step(f->hair, 0));
-    refused(hair_step(f->hair, 1.0f / 60));
-    refused(hair_reset(f->hair));
-    refused(hair_teleport(f->hair, desc.transform));
-    refused(hair_draw(f->hair, &view));
-    refused(hair_precompile(f->hair, &view, &ready));
-    refused(hair_read_positions(f->hair, HAIR_READ_GUIDES, positions, 10, &count));
-    refused(hair_get_solver_stats(f->hair, &stats));
-    refused(hair_get_field(f->hair, &field));
     refused(hair_get_bounds(f->hair, positions, positions + 3));
     refused(hair_report(f->hair, false, &report, NULL, 0, 0, &count));
-    refused(hair_save(f->hair, NULL, 0, &size));
-    refused(hair_load(f->hair, positions, sizeof positions));
-    check_others_refused(f);
+    refused(hair_get_lengths(f->hair, 0, 1, positions));
+    refused(hair_get_contacts(f->hair, true, &contact, sizeof contact, 1, &count));
+    refused(hair_set_targets(f->hair, positions, 10, 12, NULL));
+    refused(hair_set_target_blend(f->hair, &blend));
+    refused(hair_set_group_look(f->hair, 0, &group));
+    refused(hair_get_group_look(f->hair, 0, &group));
+    refused(hair_set_group_physics(f->hair, 0, &physics));
+    refused(hair_get_group_physics(f->hair, 0, &physics));
 }
 
 // Destroy what is left, and check that nothing stays.
@@ -182,7 +152,7 @@ static void abandoned_context_is_inert_without_opengl(void** state)
     hair_memory memory = hair_memory_default();
     hair_instance* other = NULL;
     hair_shader* other_shader = NULL;
-    const char* words = "the context is abandoned";
+    const char* said = "the context is abandoned";
     start(&f, *state, 0);
     shader.glsl = frost;
     hair_egl_make_current(NULL);
@@ -190,13 +160,13 @@ static void abandoned_context_is_inert_without_opengl(void** state)
     hair_context_abandon(f.context);
     hair_context_abandon(NULL);
     check_refused(&f);
-    hair_test_refused(f.test, hair_context_reload(f.context), HAIR_ERROR_ARGUMENT, words);
-    hair_test_refused(f.test, hair_get_memory(f.context, &memory), HAIR_ERROR_ARGUMENT, words);
-    hair_test_refused(f.test, hair_set_memory_limit(f.context, 1), HAIR_ERROR_ARGUMENT, words);
-    hair_test_refused(f.test, hair_set_budget(f.context, 1), HAIR_ERROR_ARGUMENT, words);
-    hair_test_refused(f.test, hair_create(f.context, f.groom, &desc, &other), HAIR_ERROR_ARGUMENT, words);
+    hair_test_refused(f.test, hair_context_reload(f.context), HAIR_ERROR_ARGUMENT, said);
+    hair_test_refused(f.test, hair_get_memory(f.context, &memory), HAIR_ERROR_ARGUMENT, said);
+    hair_test_refused(f.test, hair_set_memory_limit(f.context, 1), HAIR_ERROR_ARGUMENT, said);
+    hair_test_refused(f.test, hair_set_budget(f.context, 1), HAIR_ERROR_ARGUMENT, said);
+    hair_test_refused(f.test, hair_create(f.context, f.groom, &desc, &other), HAIR_ERROR_ARGUMENT, said);
     hair_test_refused(f.test, hair_shader_create(f.context, &shader, &other_shader), HAIR_ERROR_ARGUMENT,
-                      words);
+                      said);
     assert_int_equal(hair_get_timings(f.context, NULL, 0), 0);
     hair_test_forgive(f.test);
     hair_context_destroy(f.context);

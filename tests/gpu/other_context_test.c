@@ -1,7 +1,7 @@
 // other_context_test.c - calls while another OpenGL context than that of the hair_context is
 // current. They are refused, and leave the objects of the other context alone.
+#include "tests/support/refused_calls.h"
 #include "tests/support/scene.h"
-#include "tests/support/tessellated.h"
 
 #include <epoxy/egl.h>
 #include <string.h>
@@ -76,80 +76,17 @@ static void finish(struct fixture* f)
     hair_test_scene_free(&f->scene);
 }
 
-// Refuse the calls that need OpenGL.
-static void check_refused(struct fixture* f)
-{
-    struct hair_test* test = f->scene.test;
-    hair_context* context = f->scene.hair->context;
-    hair_instance *hair = f->scene.hair, *created = NULL;
-    hair_shader* shader = NULL;
-    hair_desc desc = hair_desc_default();
-    hair_shader_desc shader_desc = hair_shader_desc_default();
-    hair_view view = hair_test_tessellated();
-    hair_solver_stats stats = hair_solver_stats_default();
-    hair_field_info field = hair_field_info_default();
-    hair_report_info report = hair_report_info_default();
-    hair_timing timings[4];
-    float positions[30];
-    uint32_t count = 0;
-    size_t size = 0;
-    bool is_ready = false;
-    shader_desc.glsl = "vec4 hair_shade(hair_fragment f) { return vec4(f.t); }\n";
-    hair_test_refused(test, hair_create(context, f->scene.groom, &desc, &created), HAIR_ERROR_OPENGL, words);
-    hair_test_refused(test, hair_shader_create(context, &shader_desc, &shader), HAIR_ERROR_OPENGL, words);
-    hair_test_refused(test, hair_context_reload(context), HAIR_ERROR_OPENGL, words);
-    hair_test_refused(test, hair_step(hair, 1.0f / 60), HAIR_ERROR_OPENGL, words);
-    hair_test_refused(test, hair_reset(hair), HAIR_ERROR_OPENGL, words);
-    hair_test_refused(test, hair_teleport(hair, desc.transform), HAIR_ERROR_OPENGL, words);
-    hair_test_refused(test, hair_draw(hair, &view), HAIR_ERROR_OPENGL, words);
-    hair_test_refused(test, hair_precompile(hair, &view, &is_ready), HAIR_ERROR_OPENGL, words);
-    hair_test_refused(test, hair_read_positions(hair, HAIR_READ_GUIDES, positions, 10, &count),
-                      HAIR_ERROR_OPENGL, words);
-    hair_test_refused(test, hair_get_solver_stats(hair, &stats), HAIR_ERROR_OPENGL, words);
-    hair_test_refused(test, hair_get_field(hair, &field), HAIR_ERROR_OPENGL, words);
-    hair_test_refused(test, hair_report(hair, true, &report, NULL, 0, 0, &count), HAIR_ERROR_OPENGL, words);
-    hair_test_refused(test, hair_save(hair, NULL, 0, &size), HAIR_ERROR_OPENGL, words);
-    hair_test_refused(test, hair_load(hair, positions, sizeof positions), HAIR_ERROR_OPENGL, words);
-    assert_int_equal(hair_get_timings(context, timings, 4), 0);
-    hair_test_forgive(test);
-}
-
-// Refuse the calls of lists, of cuts, of buffers and of contacts.
-static void check_others_refused(struct fixture* f)
-{
-    struct hair_test* test = f->scene.test;
-    hair_context* context = f->scene.hair->context;
-    hair_instance* hair = f->scene.hair;
-    hair_view view = hair_test_tessellated();
-    hair_cut_desc cut = hair_cut_desc_default();
-    hair_buffers buffers = hair_buffers_default();
-    hair_body_desc desc = hair_body_desc_default();
-    const float positions[9] = {0, 0, 0, 0.1f, 0, 0, 0, 0.1f, 0}, half = 0.5f;
-    const uint32_t triangle[3] = {0, 1, 2};
-    hair_body* body = NULL;
-    char tuning[1000];
-    desc.positions = positions, desc.triangles = triangle;
-    desc.vertex_count = 3, desc.triangle_count = 1;
-    desc.upper[0] = desc.upper[1] = desc.upper[2] = 1;
-    hair_test_refused(test, hair_step_list(&hair, 1, 1.0f / 60), HAIR_ERROR_OPENGL, words);
-    hair_test_refused(test, hair_draw_list(&hair, 1, &view), HAIR_ERROR_OPENGL, words);
-    hair_test_refused(test, hair_set_lengths(hair, 0, 1, &half), HAIR_ERROR_OPENGL, words);
-    hair_test_refused(test, hair_cut(hair, &cut, NULL, NULL), HAIR_ERROR_OPENGL, words);
-    hair_test_refused(test, hair_get_buffers(hair, HAIR_READ_FOLLOWERS, &buffers), HAIR_ERROR_OPENGL, words);
-    hair_test_refused(test, hair_body_create(context, &desc, &body), HAIR_ERROR_OPENGL, words);
-    hair_test_refused(test, hair_record_contacts(hair, 100), HAIR_ERROR_OPENGL, words);
-    hair_test_refused(test, hair_context_tune(context, tuning, sizeof tuning), HAIR_ERROR_OPENGL, words);
-    hair_test_refused(test, hair_set_targets_buffer(hair, 1, 0, 12, NULL), HAIR_ERROR_OPENGL, words);
-    assert_null(body);
-}
-
 static void calls_are_refused(struct hair_test* test, void* (*get_proc)(const char*, void*), bool shares)
 {
     static struct hair_test_points before, after;
     struct fixture f;
     start(&f, test, get_proc, shares);
-    check_refused(&f);
-    check_others_refused(&f);
+    hair_context* context = f.scene.hair->context;
+    hair_timing timings[4];
+    hair_test_refuse_calls(test, f.scene.hair, HAIR_ERROR_OPENGL, words);
+    hair_test_refuse_context_calls(test, context, f.scene.groom, HAIR_ERROR_OPENGL, words);
+    assert_int_equal(hair_get_timings(context, timings, 4), 0);
+    hair_test_forgive(test);
     check_other(&f);
     make_current(&f, EGL_NO_CONTEXT);
     hair_test_refused(test, hair_step(f.scene.hair, 1.0f / 60), HAIR_ERROR_OPENGL, "no OpenGL context");
