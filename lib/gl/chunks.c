@@ -20,6 +20,8 @@ static bool is_free(struct hair_gl* gl, struct hair_gl_chunk* chunk)
     return chunk->used == 0;
 }
 
+// Free a buffer of a chunk. hair_gl_free_buffer() would first run everything that is recorded, and
+// this happens while commands are recorded.
 static void free_buffer(struct hair_gl* gl, GLuint* buffer)
 {
     if (!*buffer) return;

@@ -144,8 +144,8 @@ void hair_test_refused(struct hair_test* test, hair_result result, hair_result e
 {
     uint32_t errors = hair_test_forgive(test);
     if (result != expected)
-        fail_msg("\"%s\" instead of \"%s\" (%s): %s", hair_result_string(result), hair_result_string(expected),
-                 words, test->host.sentence);
+        fail_msg("\"%s\" instead of \"%s\" (%s): %s", hair_result_string(result),
+                 hair_result_string(expected), words, test->host.sentence);
     if (errors != 1) fail_msg("%u sentences, not one (%s): %s", errors, words, test->host.sentence);
     if (!strstr(test->host.sentence, words)) fail_msg("no \"%s\" in: %s", words, test->host.sentence);
     *test->host.sentence = 0;

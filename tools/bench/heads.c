@@ -1,10 +1,9 @@
 // heads.c - Suite `heads`, many heads of hair in one view, of which a few are near.
-#include "tools/bench/bench.h"
+#include "tools/bench/style_groom.h"
 #include "tools/bench/timer.h"
 #include "tools/common/stats.h"
 
 #include <epoxy/gl.h>
-#include <hair/hair_asset.h>
 #include <math.h>
 #include <string.h>
 
@@ -62,16 +61,8 @@ static uint32_t count_heads(const struct heads* heads)
 static hair_result make_groom(struct bench* bench, hair_groom** out)
 {
     hair_style_desc style = hair_style_desc_default();
-    hair_groom_desc desc = hair_groom_desc_default();
-    hair_asset* asset = NULL;
-    style.host = desc.host = &bench->host;
     style.guide_count = GUIDES;
-    hair_result result = hair_asset_generate(&style, &asset);
-    if (!result) result = hair_asset_to_groom_desc(asset, &desc);
-    desc.follower_count = bench->options.strands ? bench->options.strands : FOLLOWERS;
-    if (!result) result = hair_groom_create(&desc, out);
-    hair_asset_destroy(asset);
-    return result;
+    return bench_style_groom(bench, &style, 0, bench->options.strands ? bench->options.strands : FOLLOWERS, out);
 }
 
 static void die(struct heads* heads)

@@ -1,12 +1,11 @@
 // skip.c - Pairs of scenes with and without a feature. A scene must not pay for features that it
 // does not use.
 #include <epoxy/gl.h>
-#include <hair/hair_asset.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "tools/bench/bench.h"
+#include "tools/bench/style_groom.h"
 #include "tools/common/stats.h"
 
 #define MAX_HEADS 100
@@ -62,16 +61,8 @@ struct heads {
 static hair_result make_groom(struct bench* bench, hair_groom** out)
 {
     hair_style_desc style = hair_style_desc_default();
-    hair_groom_desc desc = hair_groom_desc_default();
-    hair_asset* asset = NULL;
-    style.host = desc.host = &bench->host;
     style.guide_count = 64;
-    hair_result result = hair_asset_generate(&style, &asset);
-    if (!result) result = hair_asset_to_groom_desc(asset, &desc);
-    desc.follower_count = bench->options.strands ? bench->options.strands : 2000;
-    if (!result) result = hair_groom_create(&desc, out);
-    hair_asset_destroy(asset);
-    return result;
+    return bench_style_groom(bench, &style, 0, bench->options.strands ? bench->options.strands : 2000, out);
 }
 
 static void die(struct heads* heads)

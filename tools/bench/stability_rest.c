@@ -1,9 +1,8 @@
 // stability_rest.c - Cases `rest HAIRCUT VERTICES`, every built-in haircut with default settings on
 // a head at rest.
 #include "tools/bench/stability.h"
+#include "tools/bench/style_groom.h"
 #include "tools/common/head_rig.h"
-
-#include <hair/hair_asset.h>
 
 #include <math.h>
 
@@ -24,20 +23,11 @@ bool bench_rest_must_sleep(hair_solver solver)
 static hair_result make_groom(struct bench* bench, hair_style style, uint32_t guides, uint32_t vertices,
                               hair_groom** out)
 {
-    hair_asset* asset = NULL;
     hair_style_desc desc = hair_style_desc_default();
-    hair_groom_desc groom = hair_groom_desc_default();
-    desc.host = groom.host = &bench->host;
     desc.style = style;
     desc.guide_count = guides;
     desc.strand_vertices = vertices;
-    hair_result result = hair_asset_generate(&desc, &asset);
-    if (!result) result = hair_asset_to_groom_desc(asset, &groom);
-    groom.guide_vertices = vertices;
-    groom.follower_count = 0;
-    if (!result) result = hair_groom_create(&groom, out);
-    hair_asset_destroy(asset);
-    return result;
+    return bench_style_groom(bench, &desc, vertices, 0, out);
 }
 
 // Add the built-in head, neck and shoulders in their rest pose.
