@@ -9,9 +9,16 @@
 
 #include "tools/common/stats.h"
 
+// Least duration of a dispatch or a draw.
+struct timing {
+    char pass[128]; // label of its pass
+    double ms;
+    bool is_measured;
+};
+
 // Least durations of the dispatches or the draws of a frame, in their order.
 struct timings {
-    struct bench_gl_longest* least;
+    struct timing* least;
     unsigned count, room;
 };
 
@@ -31,15 +38,15 @@ static void keep(struct timings* times, double ms)
 {
     if (times->count == times->room) {
         unsigned room = times->room ? 2 * times->room : 256;
-        struct bench_gl_longest* more = realloc(times->least, room * sizeof *more);
+        struct timing* more = realloc(times->least, room * sizeof *more);
         if (!more) return;
         memset(more + times->room, 0, (room - times->room) * sizeof *more);
         times->least = more;
         times->room = room;
     }
-    struct bench_gl_longest* least = &times->least[times->count++];
-    bool is_other = !least->count || strcmp(least->pass, pass);
-    least->count = 1;
+    struct timing* least = &times->least[times->count++];
+    bool is_other = !least->is_measured || strcmp(least->pass, pass);
+    least->is_measured = true;
     if (is_other || ms < least->ms) least->ms = ms;
     memcpy(least->pass, pass, sizeof pass);
 }
@@ -125,10 +132,13 @@ void bench_gl_timer_begin_frame(void)
 
 static struct bench_gl_longest longest(const struct timings* times)
 {
-    struct bench_gl_longest found = {0};
-    for (unsigned i = 0; i < times->count; ++i)
-        if (times->least[i].ms >= found.ms) found = times->least[i];
-    found.count = times->count;
+    struct bench_gl_longest found = {.count = times->count};
+    for (unsigned i = 0; i < times->count; ++i) {
+        const struct timing* timing = &times->least[i];
+        if (timing->ms < found.ms) continue;
+        found.ms = timing->ms;
+        memcpy(found.pass, timing->pass, sizeof found.pass);
+    }
     return found;
 }
 

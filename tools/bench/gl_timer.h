@@ -10,7 +10,7 @@
 struct bench_gl_longest {
     char pass[128]; // label of its pass
     double ms;
-    unsigned count; // number of dispatches or draws
+    unsigned count; // number of all dispatches or draws of the frame
 };
 
 // Return an OpenGL function, as hair_context_desc.get_proc does.

@@ -62,7 +62,8 @@ static hair_result make_groom(struct bench* bench, hair_groom** out)
 {
     hair_style_desc style = hair_style_desc_default();
     style.guide_count = GUIDES;
-    return bench_style_groom(bench, &style, 0, bench->options.strands ? bench->options.strands : FOLLOWERS, out);
+    return bench_style_groom(bench, &style, 0, bench->options.strands ? bench->options.strands : FOLLOWERS,
+                             out);
 }
 
 static void die(struct heads* heads)
