@@ -74,6 +74,18 @@ void hair_free(const hair_host* host, void* memory)
     host->free(block, total, host->user);
 }
 
+void* hair_grow(const hair_host* host, void* array, size_t size, uint32_t* room, uint32_t min)
+{
+    uint32_t more = *room > min / 2 ? 2 * *room : min;
+    HAIR_ASSERT(more > *room && (array || !*room));
+    void* grown = hair_alloc(host, more, size);
+    if (!grown) return NULL;
+    if (*room) memcpy(grown, array, *room * size);
+    hair_free(host, array);
+    *room = more;
+    return grown;
+}
+
 static void log_sentence(const hair_host* host, hair_log_level level, const char* format, va_list arguments)
 {
     HAIR_ASSERT(format);

@@ -32,6 +32,9 @@ void* hair_alloc(const hair_host* host, size_t count, size_t size);
 // memory also touch its pages for the first time.
 void* hair_alloc_undefined(const hair_host* host, size_t count, size_t size);
 void hair_free(const hair_host* host, void* memory);
+// Return an array of twice as many elements of `size` bytes as `*room`, but at least `min`. It has
+// the elements of `array`, which is freed. Return NULL, and change nothing, if memory is missing.
+void* hair_grow(const hair_host* host, void* array, size_t size, uint32_t* room, uint32_t min);
 
 #define HAIR_MAX_TASKS 256
 // Elements that are divided among tasks. The division depends on their number only.

@@ -64,13 +64,10 @@ static hair_result reserve(const hair_host* host, struct hair_collider_list* lis
 {
     HAIR_ASSERT(list->count <= list->capacity);
     if (count <= list->capacity) return HAIR_OK;
-    uint32_t capacity = count < 8 ? 8 : count + count / 2;
-    hair_collider* grown = hair_alloc(host, capacity, sizeof *grown);
+    void* grown = hair_grow(host, list->collider, sizeof *list->collider, &list->capacity,
+                            count < 8 ? 8 : count + count / 2);
     if (!grown) return hair_fail_memory(host, "colliders");
-    if (list->count) memcpy(grown, list->collider, list->count * sizeof *grown);
-    hair_free(host, list->collider);
     list->collider = grown;
-    list->capacity = capacity;
     return HAIR_OK;
 }
 

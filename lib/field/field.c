@@ -79,19 +79,13 @@ static hair_result make_field(struct hair_collider_field* field)
 
 // Placing -----------------------------------------------------------------------------------------
 
-// Make room for `count` colliders in an array that has `used` of them.
 static hair_result reserve_colliders(const hair_host* host, struct hair_placed_collider** array,
-                                     uint32_t used, uint32_t* room, uint32_t count)
+                                     uint32_t* room, uint32_t count)
 {
-    HAIR_ASSERT(used <= *room);
     if (count <= *room) return HAIR_OK;
-    uint32_t more = count < 16 ? 16 : count + count / 2;
-    struct hair_placed_collider* placed = hair_alloc(host, more, sizeof *placed);
+    void* placed = hair_grow(host, *array, sizeof **array, room, count < 16 ? 16 : count + count / 2);
     if (!placed) return hair_fail_memory(host, "colliders in the field");
-    if (used) memcpy(placed, *array, used * sizeof *placed);
-    hair_free(host, *array);
     *array = placed;
-    *room = more;
     return HAIR_OK;
 }
 
@@ -285,9 +279,8 @@ static hair_result update(struct hair_collider_field* field, const hair_collider
                           const struct hair_pose* head, bool is_step)
 {
     const hair_host* host = &field->gl->host;
-    HAIR_TRY(reserve_colliders(host, &field->placed, field->count, &field->room, count));
-    if (is_step)
-        HAIR_TRY(reserve_colliders(host, &field->stepped, field->stepped_count, &field->stepped_room, count));
+    HAIR_TRY(reserve_colliders(host, &field->placed, &field->room, count));
+    if (is_step) HAIR_TRY(reserve_colliders(host, &field->stepped, &field->stepped_room, count));
     HAIR_TRY(place_all(field, colliders, count, head, is_step));
     if (field->near && !field->distance) {
         HAIR_TRY(make_field(field));

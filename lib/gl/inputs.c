@@ -2,8 +2,6 @@
 // that runs, because a binding takes the processor about as long as a dispatch.
 #include "lib/gl/gl.h"
 
-#include <string.h>
-
 // Return the bits of the binding slots of the blocks of an interface.
 static uint32_t find_block_slots(struct hair_gl* gl, GLuint program, GLenum interface)
 {
@@ -49,13 +47,9 @@ const struct hair_gl_inputs* hair_gl_find_inputs(struct hair_gl* gl, GLuint prog
     for (uint32_t i = 0; i < gl->inputs_count; ++i)
         if (gl->inputs[i].program == program) return &gl->inputs[i];
     if (gl->inputs_count == gl->inputs_room) {
-        uint32_t room = gl->inputs_room ? 2 * gl->inputs_room : 32;
-        struct hair_gl_inputs* more = hair_alloc(&gl->host, room, sizeof *more);
+        void* more = hair_grow(&gl->host, gl->inputs, sizeof *gl->inputs, &gl->inputs_room, 32);
         if (!more) return NULL;
-        if (gl->inputs_count) memcpy(more, gl->inputs, gl->inputs_count * sizeof *more);
-        hair_free(&gl->host, gl->inputs);
         gl->inputs = more;
-        gl->inputs_room = room;
     }
     struct hair_gl_inputs* own = &gl->inputs[gl->inputs_count++];
     *own = (struct hair_gl_inputs){.program = program,

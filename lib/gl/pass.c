@@ -2,7 +2,6 @@
 #include "lib/gl/commands.h"
 #include "lib/gl/frame_profiler.h"
 
-#include <string.h>
 #include <time.h>
 
 // A software rasteriser runs a dispatch at once, and applications must not stall for long. A pass
@@ -25,15 +24,10 @@ struct hair_gl_program* hair_gl_find(const struct hair_gl* gl, hair_gl_pass pass
 static struct hair_gl_program* add_program(struct hair_gl* gl, hair_gl_pass pass)
 {
     if (gl->programs == gl->room) {
-        uint32_t room = gl->room ? 2 * gl->room : 16;
         // NOLINTNEXTLINE(bugprone-sizeof-expression): the elements are pointers.
-        struct hair_gl_program** more = hair_alloc(&gl->host, room, sizeof *more);
+        void* more = hair_grow(&gl->host, gl->program, sizeof *gl->program, &gl->room, 16);
         if (!more) return NULL;
-        // NOLINTNEXTLINE(bugprone-sizeof-expression): the elements are pointers.
-        if (gl->programs) memcpy(more, gl->program, gl->programs * sizeof *more);
-        hair_free(&gl->host, gl->program);
         gl->program = more;
-        gl->room = room;
     }
     HAIR_ASSERT(gl->programs < gl->room);
     struct hair_gl_program* own = hair_alloc(&gl->host, 1, sizeof *own);

@@ -14,13 +14,10 @@ static bool make_room(struct hair_gl* gl)
 {
     struct hair_gl_recorder* recorder = gl->recorder;
     if (recorder->count < recorder->room) return true;
-    size_t room = recorder->room ? 2 * recorder->room : MIN_ROOM;
-    struct hair_gl_command* more = hair_alloc(&gl->host, room, sizeof *more);
+    void* more =
+        hair_grow(&gl->host, recorder->commands, sizeof *recorder->commands, &recorder->room, MIN_ROOM);
     if (!more) return false;
-    if (recorder->count) memcpy(more, recorder->commands, recorder->count * sizeof *more);
-    hair_free(&gl->host, recorder->commands);
     recorder->commands = more;
-    recorder->room = room;
     return true;
 }
 

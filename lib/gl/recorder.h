@@ -84,7 +84,8 @@ struct hair_gl_chunk {
 struct hair_gl_recorder {
     enum { HAIR_GL_OFF, HAIR_GL_RECORDING, HAIR_GL_AT_ONCE } mode;
     struct hair_gl_command* commands;
-    size_t count, room;
+    size_t count;
+    uint32_t room;
     struct hair_gl_stream* stream;
     uint32_t streams, stream_room, current; // Number begun, maximum, and index.
     struct hair_gl_bindings bound; // Bindings of OpenGL.

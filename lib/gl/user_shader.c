@@ -36,13 +36,9 @@ void hair_gl_free_shader(struct hair_gl* gl, struct hair_gl_shader* shader)
 static hair_result reserve_programs(struct hair_gl* gl, struct hair_gl_shader* shader)
 {
     if (shader->count < shader->room) return HAIR_OK;
-    uint32_t room = shader->room ? 2 * shader->room : 4;
-    struct hair_gl_user_program* more = hair_alloc(&gl->host, room, sizeof *more);
+    void* more = hair_grow(&gl->host, shader->programs, sizeof *shader->programs, &shader->room, 4);
     if (!more) return hair_fail_memory(&gl->host, "a shader's programs");
-    if (shader->count) memcpy(more, shader->programs, shader->count * sizeof *more);
-    hair_free(&gl->host, shader->programs);
     shader->programs = more;
-    shader->room = room;
     return HAIR_OK;
 }
 

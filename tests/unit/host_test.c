@@ -51,6 +51,24 @@ static void overflowing_size_is_refused_without_a_host_call(void** state)
     assert_int_equal(test.allocations, 0);
 }
 
+static void grown_array_keeps_its_elements_and_is_freed(void** state)
+{
+    (void)state;
+    uint32_t room = 0, *array = NULL;
+    for (uint32_t count = 0; count < 100; ++count) {
+        if (count == room) array = hair_grow(&test.host, array, sizeof *array, &room, 5);
+        array[count] = count + 1;
+    }
+    assert_int_equal(room, 160);
+    for (uint32_t i = 0; i < room; ++i) assert_int_equal(array[i], i < 100 ? i + 1 : 0);
+    assert_int_equal(test.blocks, 1);
+    test.refuse = test.allocations + 1;
+    assert_null(hair_grow(&test.host, array, sizeof *array, &room, 5));
+    assert_int_equal(room, 160);
+    assert_int_equal(array[99], 100);
+    hair_free(&test.host, array);
+}
+
 static void memory_refused_by_the_host_is_null(void** state)
 {
     (void)state;
@@ -121,6 +139,7 @@ int main(void)
         TEST(freed_size_equals_the_allocated_size),
         TEST(allocation_of_zero_elements_is_not_null),
         TEST(overflowing_size_is_refused_without_a_host_call),
+        TEST(grown_array_keeps_its_elements_and_is_freed),
         TEST(memory_refused_by_the_host_is_null),
         TEST(missing_host_selects_the_c_library),
         TEST(host_with_only_one_of_alloc_and_free_uses_neither),
