@@ -74,8 +74,7 @@ struct hair_field_detail {
 
 // Frames in which an instance is stepped.
 struct hair_pace {
-    uint32_t interval; // Number of frames from one step to the next. 0 or 1 steps in each.
-    uint32_t wanted; // Minimum interval that views want since the last step. 0 without views.
+    uint32_t wanted; // Minimum hair_sim.interval that views want since the last step, or 0.
     double pending; // Time that the next step advances by in addition to its own, s.
     struct hair_pose head; // Head at the end of `pending`.
 };

@@ -113,6 +113,7 @@ static void note_intervals(hair_instance* hair, const hair_lod* lod, float scale
     float pixels = scale * fmaxf(size.x, fmaxf(size.y, size.z));
     float light_pixels = fmaxf(lod->light_pixels, pixels * (1 / hair->sim.rate_factor - 1));
     hair->renderer.light_age.interval = hair_find_interval(light_pixels, pixels);
+    hair->renderer.light_age.pace = hair->sim.interval;
     hair_pace_note(hair, lod, pixels);
 }
 

@@ -14,10 +14,10 @@ uint32_t hair_find_interval(float limit, float pixels)
 void hair_pace_note(hair_instance* hair, const hair_lod* lod, float pixels)
 {
     struct hair_pace* pace = &hair->pace;
-    uint32_t wanted = lod ? hair_find_interval(lod->motion_pixels, pixels) : 1;
-    if (lod && wanted < pace->interval) {
+    uint32_t wanted = lod ? hair_find_interval(lod->motion_pixels, pixels) : 1, now = hair->sim.interval;
+    if (lod && wanted < now) {
         uint32_t lagging = hair_find_interval(LAG * lod->motion_pixels, pixels);
-        wanted = lagging < pace->interval ? lagging : pace->interval;
+        wanted = lagging < now ? lagging : now;
     }
     if (!pace->wanted || wanted < pace->wanted) pace->wanted = wanted;
 }
@@ -27,12 +27,11 @@ bool hair_pace_wait(hair_instance* hair, double time)
     struct hair_pace* pace = &hair->pace;
     // Without its own step, hair can only follow the head.
     bool may_wait = hair_sim_has_attached_strands(&hair->sim) && !hair_impulses_are_on(&hair->sim);
-    pace->interval = !may_wait ? 1 : pace->wanted ? pace->wanted : pace->interval;
+    uint32_t interval = !may_wait ? 1 : pace->wanted ? pace->wanted : hair->sim.interval;
     pace->wanted = 0;
-    hair_sim_set_interval(&hair->sim, pace->interval);
-    hair->renderer.light_age.pace = pace->interval;
+    hair_sim_set_interval(&hair->sim, interval);
     uint32_t frame = hair->profiler.number + 1;
-    bool is_due = pace->interval <= 1 || (frame + hair->renderer.light_age.turn) % pace->interval == 0;
+    bool is_due = (frame + hair->renderer.light_age.turn) % interval == 0;
     if (is_due || pace->pending + time > hair->max_dt) return false;
     pace->pending += time;
     pace->head = hair->sim.head;

@@ -48,7 +48,7 @@ enum hair_draw_resource {
 // Light of vertices that was computed last, which later frames may use.
 struct hair_light_age {
     uint32_t interval; // Number of frames for which light is kept. 0 or 1 computes it in each.
-    uint32_t pace; // Number of frames from one step to the next. 0 or 1 steps in each.
+    uint32_t pace; // hair_sim.interval, as the view that is drawn has it.
     uint32_t turn; // Number that lets instances compute their light in different frames.
     uint32_t frame; // Frame of the light.
     uint32_t frame_index; // hair_view.frame_index of the view whose light was computed.
