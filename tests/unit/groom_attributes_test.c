@@ -1,5 +1,5 @@
-// groom_attributes_test.c - attributes of strands by strand and by map, and their refusals.
-#include "tests/support/grooms.h"
+// groom_attributes_test.c - attributes of strands by strand and by map.
+#include "tests/support/furry.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -14,51 +14,7 @@
 #include "lib/base/schema.h"
 #include "lib/rod/prepared.h"
 
-#define COUNT 300
-#define CELLS 8
-#define VERTICES ((CELLS + 1) * (CELLS + 1))
-
 static struct hair_test_host test;
-
-// Fur on a scalp of 1 m, with two attributes of the same kind, one of strands and one map.
-struct furry {
-    struct hair_test_strands strands;
-    struct hair_test_scalp scalp;
-    hair_groom_desc desc;
-    hair_strand_attribute attributes[2];
-    float of_strands[COUNT], of_vertices[VERTICES], of_triangles[2 * CELLS * CELLS], uvs[2 * VERTICES];
-};
-
-static void prepare(struct furry* furry, hair_strand_attribute_kind kind)
-{
-    furry->strands = hair_test_fur(COUNT);
-    furry->scalp = hair_test_scalp_make(CELLS, 1);
-    furry->desc = hair_test_groom_desc(&test, &furry->strands);
-    hair_test_set_scalp(&furry->desc, &furry->scalp);
-    for (int i = 0; i < 2; ++i) {
-        furry->attributes[i] = hair_strand_attribute_default();
-        furry->attributes[i].kind = kind;
-    }
-    for (uint32_t i = 0; i < COUNT; ++i) furry->of_strands[i] = 1 + 0.01f * (float)i;
-    for (uint32_t i = 0; i < VERTICES; ++i) {
-        const float* p = furry->scalp.positions + 3 * (size_t)i;
-        furry->of_vertices[i] = 1 + 2 * p[0];
-        furry->uvs[2 * i] = p[0], furry->uvs[2 * i + 1] = p[2];
-    }
-    for (uint32_t i = 0; i < 2 * CELLS * CELLS; ++i) furry->of_triangles[i] = 0.5f * (float)i;
-    furry->attributes[0].strand_values = furry->of_strands;
-    furry->attributes[1].map.source = HAIR_MAP_SOURCE_VERTICES;
-    furry->attributes[1].map.values = furry->of_vertices;
-    furry->desc.scalp_uvs = furry->uvs;
-    furry->desc.strand_attributes = furry->attributes;
-    furry->desc.strand_attribute_count = 2;
-}
-
-static void finish(struct furry* furry)
-{
-    hair_test_strands_free(&furry->strands);
-    hair_test_scalp_free(&furry->scalp);
-}
 
 static float root_x(const hair_groom* groom, uint32_t guide)
 {
@@ -68,8 +24,8 @@ static float root_x(const hair_groom* groom, uint32_t guide)
 static void guides_have_products_of_strand_and_map(void** state)
 {
     (void)state;
-    struct furry furry;
-    prepare(&furry, HAIR_STRAND_ATTRIBUTE_DAMPING);
+    struct hair_test_furry furry;
+    hair_test_furry_make(&test, HAIR_STRAND_ATTRIBUTE_DAMPING, &furry);
     float image[4] = {3, 5, 3, 5};
     for (int source = HAIR_MAP_SOURCE_IMAGE; source <= HAIR_MAP_SOURCE_TRIANGLES; ++source) {
         hair_map* map = &furry.attributes[1].map;
@@ -79,12 +35,14 @@ static void guides_have_products_of_strand_and_map(void** state)
         if (source == HAIR_MAP_SOURCE_TRIANGLES) map->values = furry.of_triangles;
         hair_groom* groom = hair_test_groom_of(&furry.desc);
         float max = 0;
-        assert_int_equal(groom->info.guide_count, COUNT);
-        for (uint32_t g = 0; g < COUNT; ++g) {
+        assert_int_equal(groom->info.guide_count, HAIR_TEST_FURRY_STRANDS);
+        for (uint32_t g = 0; g < HAIR_TEST_FURRY_STRANDS; ++g) {
             const struct hair_guide_factors* factors = &groom->guide_factors[g];
             float x = root_x(groom, g), z = groom->rest[groom->guides[g].first].position.z;
-            float u = x * CELLS - floorf(x * CELLS), v = z * CELLS - floorf(z * CELLS);
-            uint32_t cell = (uint32_t)(x * CELLS) + CELLS * (uint32_t)(z * CELLS);
+            float u = x * HAIR_TEST_FURRY_CELLS - floorf(x * HAIR_TEST_FURRY_CELLS),
+                  v = z * HAIR_TEST_FURRY_CELLS - floorf(z * HAIR_TEST_FURRY_CELLS);
+            uint32_t cell = (uint32_t)(x * HAIR_TEST_FURRY_CELLS) +
+                            HAIR_TEST_FURRY_CELLS * (uint32_t)(z * HAIR_TEST_FURRY_CELLS);
             float value = 3 + 2 * fminf(fmaxf(x * 2 - 0.5f, 0), 1);
             if (source == HAIR_MAP_SOURCE_VERTICES) value = 1 + 2 * x;
             if (source == HAIR_MAP_SOURCE_TRIANGLES) value = (float)cell + (u + v > 1 ? 0.5f : 0);
@@ -97,46 +55,46 @@ static void guides_have_products_of_strand_and_map(void** state)
         assert_true(groom->max_factors.damping == max && groom->min_factors.damping < max);
         hair_groom_destroy(groom);
     }
-    finish(&furry);
+    hair_test_furry_free(&furry);
 }
 
 // Check that chosen guides have the values of their strands, also after strands have been dropped.
 static void values_stay_with_their_strands(void** state)
 {
     (void)state;
-    struct furry furry;
-    prepare(&furry, HAIR_STRAND_ATTRIBUTE_STIFFNESS);
+    struct hair_test_furry furry;
+    hair_test_furry_make(&test, HAIR_STRAND_ATTRIBUTE_STIFFNESS, &furry);
     hair_import import = hair_import_default();
     import.keep_fraction = 0.3f, import.strand_vertices = 5;
     furry.desc.import = &import;
     furry.desc.strand_set = HAIR_STRAND_SET_FULL;
     furry.desc.guide_count = 20;
     furry.desc.strand_attribute_count = 1;
-    for (uint32_t i = 0, first = 0; i < COUNT; first += furry.strands.vertices[i++])
+    for (uint32_t i = 0, first = 0; i < HAIR_TEST_FURRY_STRANDS; first += furry.strands.vertices[i++])
         furry.of_strands[i] = furry.strands.positions[3 * first];
     hair_groom* groom = hair_test_groom_of(&furry.desc);
-    assert_true(groom->info.strand_count < COUNT / 2);
+    assert_true(groom->info.strand_count < HAIR_TEST_FURRY_STRANDS / 2);
     for (uint32_t g = 0; g < groom->info.guide_count; ++g)
         assert_true(groom->guide_factors[g].stiffness == root_x(groom, g));
     hair_groom_destroy(groom);
-    finish(&furry);
+    hair_test_furry_free(&furry);
 }
 
 // Check the rods that a groom prepares for physics, with the damping of each guide.
 static void prepared_rods_have_the_factors(void** state)
 {
     (void)state;
-    struct furry furry;
-    prepare(&furry, HAIR_STRAND_ATTRIBUTE_DAMPING);
+    struct hair_test_furry furry;
+    hair_test_furry_make(&test, HAIR_STRAND_ATTRIBUTE_DAMPING, &furry);
     hair_physics physics = hair_physics_default();
     furry.desc.physics = &physics;
     hair_groom* groom = hair_test_groom_of(&furry.desc);
-    for (uint32_t g = 0; g < COUNT; ++g) {
+    for (uint32_t g = 0; g < HAIR_TEST_FURRY_STRANDS; ++g) {
         float damping = groom->prepared->rod[2 * groom->info.guide_vertex_count + g].w;
         assert_true(damping == 4 * groom->guide_factors[g].damping && damping > 4);
     }
     hair_groom_destroy(groom);
-    finish(&furry);
+    hair_test_furry_free(&furry);
 }
 
 // Return the length of a follower at rest, m.
@@ -155,11 +113,12 @@ static double follower_length(const struct hair_groom* groom, uint32_t follower)
 static void lengths_are_fractions_in_metres(void** state)
 {
     (void)state;
-    struct furry furry;
-    prepare(&furry, HAIR_STRAND_ATTRIBUTE_LENGTH);
+    struct hair_test_furry furry;
+    hair_test_furry_make(&test, HAIR_STRAND_ATTRIBUTE_LENGTH, &furry);
     furry.desc.follower_count = 1000;
-    for (uint32_t i = 0; i < COUNT; ++i) furry.of_strands[i] = i % 3 ? 1 : 0.4f;
-    for (uint32_t i = 0; i < VERTICES; ++i) furry.of_vertices[i] = 0.2f + 0.8f * furry.scalp.positions[3 * i];
+    for (uint32_t i = 0; i < HAIR_TEST_FURRY_STRANDS; ++i) furry.of_strands[i] = i % 3 ? 1 : 0.4f;
+    for (uint32_t i = 0; i < HAIR_TEST_FURRY_VERTICES; ++i)
+        furry.of_vertices[i] = 0.2f + 0.8f * furry.scalp.positions[3 * i];
     for (int set = 0; set < 2; ++set) {
         furry.desc.strand_set = set ? HAIR_STRAND_SET_GUIDES : HAIR_STRAND_SET_FULL;
         furry.desc.strand_attribute_count = 0;
@@ -167,7 +126,7 @@ static void lengths_are_fractions_in_metres(void** state)
         furry.desc.strand_attribute_count = 2;
         hair_groom* groom = hair_test_groom_of(&furry.desc);
         double off = 0;
-        for (uint32_t g = 0; set && g < COUNT; ++g) {
+        for (uint32_t g = 0; set && g < HAIR_TEST_FURRY_STRANDS; ++g) {
             double wanted = (double)furry.of_strands[g] * (0.2 + 0.8 * (double)root_x(whole, g));
             off = fmax(off, fabs((double)groom->guides[g].arc_length / (double)whole->guides[g].arc_length -
                                  wanted));
@@ -193,7 +152,7 @@ static void lengths_are_fractions_in_metres(void** state)
         if (set) printf("%u followers are shorter than their guides\n", shorter);
         assert_true(!set || shorter > 10);
         double wanted[2] = {0};
-        for (uint32_t i = 0, first = 0; i < COUNT; first += furry.strands.vertices[i++]) {
+        for (uint32_t i = 0, first = 0; i < HAIR_TEST_FURRY_STRANDS; first += furry.strands.vertices[i++]) {
             const float* p = furry.strands.positions + 3 * (size_t)first;
             wanted[p[0] > 0.5f] += hair_strand_length(p, furry.strands.vertices[i]) *
                                    (double)furry.of_strands[i] * (0.2 + 0.8 * (double)p[0]);
@@ -206,7 +165,7 @@ static void lengths_are_fractions_in_metres(void** state)
         hair_groom_destroy(groom);
         hair_groom_destroy(whole);
     }
-    finish(&furry);
+    hair_test_furry_free(&furry);
 }
 
 // Return the mean of values of guides that a grown follower has, or the value of its root.
@@ -235,11 +194,12 @@ static void check_subset(const hair_groom* groom, const hair_groom* whole)
 static void densities_are_fractions_of_followers(void** state)
 {
     (void)state;
-    struct furry furry;
-    prepare(&furry, HAIR_STRAND_ATTRIBUTE_DENSITY);
-    for (uint32_t i = 0, first = 0; i < COUNT; first += furry.strands.vertices[i++])
+    struct hair_test_furry furry;
+    hair_test_furry_make(&test, HAIR_STRAND_ATTRIBUTE_DENSITY, &furry);
+    for (uint32_t i = 0, first = 0; i < HAIR_TEST_FURRY_STRANDS; first += furry.strands.vertices[i++])
         furry.of_strands[i] = furry.strands.positions[3 * (size_t)first + 2];
-    for (uint32_t i = 0; i < VERTICES; ++i) furry.of_vertices[i] = furry.scalp.positions[3 * (size_t)i];
+    for (uint32_t i = 0; i < HAIR_TEST_FURRY_VERTICES; ++i)
+        furry.of_vertices[i] = furry.scalp.positions[3 * (size_t)i];
     furry.desc.follower_count = 2000;
     for (int set = 0; set < 2; ++set) {
         furry.desc.strand_set = set ? HAIR_STRAND_SET_GUIDES : HAIR_STRAND_SET_FULL;
@@ -265,26 +225,27 @@ static void densities_are_fractions_of_followers(void** state)
         check_subset(groom, whole);
         hair_groom_destroy(groom), hair_groom_destroy(again), hair_groom_destroy(whole);
     }
-    for (uint32_t i = 0; i < COUNT; ++i) furry.of_strands[i] = 0;
+    for (uint32_t i = 0; i < HAIR_TEST_FURRY_STRANDS; ++i) furry.of_strands[i] = 0;
     hair_test_refuse_groom(&test, &furry.desc, "densities leave none of 2000 followers");
-    finish(&furry);
+    hair_test_furry_free(&furry);
 }
 
 // Followers around guides without a scalp have the density of their guide.
 static void guides_without_density_have_no_followers(void** state)
 {
     (void)state;
-    struct furry furry;
-    prepare(&furry, HAIR_STRAND_ATTRIBUTE_DENSITY);
+    struct hair_test_furry furry;
+    hair_test_furry_make(&test, HAIR_STRAND_ATTRIBUTE_DENSITY, &furry);
     hair_groom_desc bald = hair_test_groom_desc(&test, &furry.strands);
-    for (uint32_t i = 0; i < COUNT; ++i) furry.of_strands[i] = (float)(i % 2);
+    for (uint32_t i = 0; i < HAIR_TEST_FURRY_STRANDS; ++i) furry.of_strands[i] = (float)(i % 2);
     bald.strand_attributes = furry.attributes, bald.strand_attribute_count = 1;
-    bald.strand_set = HAIR_STRAND_SET_GUIDES, bald.follower_count = 10 * COUNT;
+    bald.strand_set = HAIR_STRAND_SET_GUIDES, bald.follower_count = 10 * HAIR_TEST_FURRY_STRANDS;
     hair_groom* groom = hair_test_groom_of(&bald);
-    assert_int_equal(groom->info.follower_count, 5 * COUNT);
-    for (uint32_t i = 0; i < 5 * COUNT; ++i) assert_int_equal(groom->followers[i].guide0 % 2, 1);
+    assert_int_equal(groom->info.follower_count, 5 * HAIR_TEST_FURRY_STRANDS);
+    for (uint32_t i = 0; i < 5 * HAIR_TEST_FURRY_STRANDS; ++i)
+        assert_int_equal(groom->followers[i].guide0 % 2, 1);
     hair_groom_destroy(groom);
-    finish(&furry);
+    hair_test_furry_free(&furry);
 }
 
 static const hair_member* find_member(const struct hair_schema* schema, const char* name)
@@ -315,90 +276,6 @@ static void products_stay_within_the_ranges_of_physics(void** state)
         assert_true(checks[i].value == (float)find_member(&schema, checks[i].name)->max);
 }
 
-static void invalid_attributes_are_refused_by_index_and_range(void** state)
-{
-    (void)state;
-    struct furry furry;
-    prepare(&furry, HAIR_STRAND_ATTRIBUTE_GRAVITY_PRELOAD);
-    furry.of_strands[17] = 100.5f;
-    hair_test_refuse_groom(
-        &test, &furry.desc,
-        "hair_groom_desc.strand_attributes[0].strand_values[17] is 100.5, not in [0, 100]");
-    furry.of_strands[17] = NAN;
-    hair_test_refuse_groom(&test, &furry.desc, "hair_groom_desc.strand_attributes[0].strand_values[17] is");
-    furry.of_strands[17] = 1;
-    furry.of_vertices[80] = -1;
-    hair_test_refuse_groom(&test, &furry.desc,
-                           "hair_groom_desc.strand_attributes[1].map.values[80] is -1, not in [0, 100]");
-    furry.of_vertices[80] = 1;
-    furry.uvs[9] = INFINITY;
-    hair_test_refuse_groom(&test, &furry.desc, "scalp_uvs: vertex 4 has inf");
-    furry.uvs[9] = 0;
-    furry.attributes[1].map.source = HAIR_MAP_SOURCE_IMAGE;
-    hair_test_refuse_groom(&test, &furry.desc,
-                           "strand_attributes[1].map is an image of 0 by 0, not of [1, 16384] each");
-    furry.attributes[1].map.width = furry.attributes[1].map.height = 9;
-    furry.desc.scalp_uvs = NULL;
-    hair_test_refuse_groom(&test, &furry.desc, "scalp_uvs is NULL but strand_attributes[1].map is an image");
-    furry.attributes[1].map.values = NULL;
-    hair_test_refuse_groom(&test, &furry.desc, "strand_attributes[1].map.values is NULL");
-    furry.attributes[0].kind = (hair_strand_attribute_kind)99;
-    hair_test_refuse_groom(&test, &furry.desc,
-                           "hair_groom_desc.strand_attributes[0].kind is 99, not in [0, ");
-    furry.attributes[0].header.version = 0;
-    hair_groom* none = NULL;
-    assert_int_equal(hair_groom_create(&furry.desc, &none), HAIR_ERROR_VERSION);
-    test.errors = 0;
-    furry.desc.strand_attributes = NULL;
-    hair_test_refuse_groom(&test, &furry.desc,
-                           "hair_groom_desc.strand_attributes is NULL but strand_attribute_count is 2");
-    furry.desc.strand_attribute_count = 33;
-    hair_test_refuse_groom(&test, &furry.desc,
-                           "hair_groom_desc.strand_attribute_count is 33, not in [0, 32]");
-    finish(&furry);
-    prepare(&furry, HAIR_STRAND_ATTRIBUTE_GRAVITY_PRELOAD);
-    for (uint32_t i = 0; i < 3 * furry.scalp.triangle_count; ++i) furry.scalp.triangles[i] = 0;
-    furry.desc.strand_set = HAIR_STRAND_SET_FULL;
-    hair_test_refuse_groom(&test, &furry.desc, "scalp_triangles: none of 128 has three different corners");
-    furry.desc.strand_attribute_count = 1;
-    hair_groom_destroy(hair_test_groom_of(&furry.desc));
-    hair_groom_desc bald = hair_test_groom_desc(&test, &furry.strands);
-    bald.strand_attributes = furry.attributes, bald.strand_attribute_count = 2;
-    hair_test_refuse_groom(&test, &bald,
-                           "hair_groom_desc.scalp_positions is NULL but strand_attributes[1].map is not");
-    finish(&furry);
-}
-
-static void check_refusals(hair_strand_attribute_kind kind)
-{
-    struct furry furry;
-    prepare(&furry, kind);
-    for (uint32_t i = 0; i < COUNT; ++i) furry.of_strands[i] = 0.5f;
-    for (uint32_t i = 0; i < VERTICES; ++i) furry.of_vertices[i] = 1;
-    furry.desc.strand_set = HAIR_STRAND_SET_GUIDES, furry.desc.follower_count = 500;
-    hair_groom* groom = NULL;
-    uint32_t refuse = 0;
-    hair_result result = HAIR_ERROR_MEMORY;
-    while (result == HAIR_ERROR_MEMORY) {
-        test.refuse = test.allocations + ++refuse;
-        result = hair_groom_create(&furry.desc, &groom);
-        test.errors = 0;
-        if (result) assert_int_equal(test.blocks, 0);
-    }
-    test.refuse = 0;
-    assert_int_equal(result, HAIR_OK);
-    assert_true(refuse > 20);
-    hair_groom_destroy(groom);
-    finish(&furry);
-}
-
-static void refused_allocations_of_attributes_leak_nothing(void** state)
-{
-    (void)state;
-    check_refusals(HAIR_STRAND_ATTRIBUTE_STIFFNESS);
-    check_refusals(HAIR_STRAND_ATTRIBUTE_DENSITY);
-}
-
 #define TEST(function) HAIR_TEST_WITH_HOST(function, &test)
 
 int main(void)
@@ -411,8 +288,6 @@ int main(void)
         TEST(densities_are_fractions_of_followers),
         TEST(guides_without_density_have_no_followers),
         TEST(products_stay_within_the_ranges_of_physics),
-        TEST(invalid_attributes_are_refused_by_index_and_range),
-        TEST(refused_allocations_of_attributes_leak_nothing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
