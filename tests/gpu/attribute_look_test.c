@@ -2,6 +2,7 @@
 // attributes of strands and by maps, measured in metres, turns per metre, radians and pixels.
 #include "tests/support/arcs.h"
 #include "tests/support/beams.h"
+#include "tests/support/looks.h"
 #include "tests/support/passes.h"
 #include "tests/support/render_paths.h"
 
@@ -76,17 +77,6 @@ static void start(struct hair_test* test, const hair_strand_attribute_kind* kind
     hair_test_strands_free(&strands);
 }
 
-static float* read_with(const struct rows* rows, const hair_look* look)
-{
-    uint32_t count = rows->scene.groom->info.follower_count * EACH, there;
-    float* positions = malloc(3 * sizeof *positions * count);
-    hair_test_ok(rows->scene.test, hair_set_look(rows->scene.hair, look));
-    hair_test_ok(rows->scene.test,
-                 hair_read_positions(rows->scene.hair, HAIR_READ_FOLLOWERS, positions, count, &there));
-    assert_int_equal(there, count);
-    return positions;
-}
-
 // Return the expected factor of a follower that is a strand.
 static double factor_of(const struct rows* rows, const float* values, uint32_t follower)
 {
@@ -122,10 +112,10 @@ static void curls_have_the_radius_and_frequency_of_their_strand(void** state)
     }
     start(*state, kinds, 2, 0, &rows);
     hair_look look = plain_look();
-    float* plain = read_with(&rows, &look);
+    float* plain = hair_test_read_look(&rows.scene, &look);
     look.curl.radius = 0.004f, look.curl.wavelength = 0.125f, look.curl.spread = 0;
     look.curl.profile = hair_curve_line(1, 1);
-    float* curled = read_with(&rows, &look);
+    float* curled = hair_test_read_look(&rows.scene, &look);
     double off[2] = {0}, min = 9, max = 0;
     for (uint32_t i = 0; i < STRANDS; ++i) {
         double rms, turns, radius = factor_of(&rows, rows.of_strands, i);
@@ -148,9 +138,9 @@ static void frizz_moves_strands_by_the_factor_of_their_strand(void** state)
     start(*state, &kind, 1, 0, &rows);
     start(*state, NULL, 0, 0, &usual);
     hair_look look = plain_look();
-    float* plain = read_with(&rows, &look);
+    float* plain = hair_test_read_look(&rows.scene, &look);
     look.strays.frizz = hair_curve_line(0.002f, 0.002f), look.strays.frizz_wavelength = 0.1f;
-    float *moved = read_with(&rows, &look), *once = read_with(&usual, &look);
+    float *moved = hair_test_read_look(&rows.scene, &look), *once = hair_test_read_look(&usual.scene, &look);
     double off = 0, max = 0;
     for (uint32_t i = 0; i < STRANDS; ++i)
         for (uint32_t k = 3 * EACH * i; k < 3 * EACH * (i + 1); ++k) {
@@ -176,9 +166,10 @@ static void locks_have_the_weight_of_the_map_and_the_strands(void** state)
     hair_look look = plain_look();
     look.clump.interpolation = HAIR_INTERPOLATION_MIXED;
     look.clump.weight = hair_curve_line(0, 0);
-    float* open = read_with(&usual, &look);
+    float* open = hair_test_read_look(&usual.scene, &look);
     look.clump.weight = hair_curve_line(0, 1);
-    float *locked = read_with(&usual, &look), *found = read_with(&rows, &look);
+    float *locked = hair_test_read_look(&usual.scene, &look),
+          *found = hair_test_read_look(&rows.scene, &look);
     double off = 0, max = 0;
     for (uint32_t i = 0; i < 500; ++i) {
         const struct hair_follower* f = &rows.scene.groom->followers[i];
@@ -341,17 +332,17 @@ static void factors_cost_two_bytes_of_each_follower(void** state)
     for (int i = 0; i < STRANDS; ++i)
         rows.of_strands[i] = rows.others[i] = with.of_strands[i] = with.others[i] = 1;
     start(test, NULL, 0, 300, &without);
-    float* plain = read_with(&without, &look);
+    float* plain = hair_test_read_look(&without.scene, &look);
     bytes[1] = hair_test_bytes(test);
     start(test, other, 2, 300, &rows);
-    float* same = read_with(&rows, &look);
+    float* same = hair_test_read_look(&rows.scene, &look);
     bytes[2] = hair_test_bytes(test);
     assert_memory_equal(same, plain, 3 * sizeof *plain * 300 * EACH);
     assert_int_equal(hair_test_runs_of(&test->context->gl, "_strand_factors"), runs);
     assert_int_equal(bytes[2] - bytes[1], bytes[1] - bytes[0]);
     start(test, used, 3, 300, &with);
     free(same);
-    same = read_with(&with, &look);
+    same = hair_test_read_look(&with.scene, &look);
     bytes[3] = hair_test_bytes(test);
     assert_true(memcmp(same, plain, 3 * sizeof *plain * 300 * EACH) != 0);
     assert_true(hair_test_runs_of(&test->context->gl, "_strand_factors") > runs);
