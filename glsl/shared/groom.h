@@ -5,6 +5,7 @@
 #define HAIR_MAX_GUIDES 262144       // Per groom.
 #define HAIR_MAX_GUIDE_VERTICES 256  // Per guide. A work group has one thread per vertex.
 #define HAIR_MAX_SMOOTH_VERTICES 511 // Per guide. Two samples per segment of the longest guide.
+#define HAIR_MAX_GUIDE_STRIDE 8 // Maximum of hair_step_params.guide_stride, a power of two.
 #define HAIR_FOLLOWER_TEXELS 6 // Per hair_follower.
 #define HAIR_PATCH_TEXELS 4 // Per hair_patch.
 #define HAIR_MAP_SETS 4 // Maximum per groom.

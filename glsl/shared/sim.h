@@ -126,6 +126,11 @@ struct hair_step_params {
     hair_uint substep_first; // Index in `substep` at which this dispatch begins.
     hair_uint part_rounds; // Loop iterations that parts of a substep may take. See leap_parts.glsl.
     hair_uint list_guides; // Guides of the list per work group of the second program.
+    hair_uint simulated; // Number of guides that are simulated.
+    hair_uint guide_stride; // One guide of so many is simulated, in the order of guides.
+    hair_uint guide_order; // Index in solver_stats[] of the order of guides.
+    // Fraction of the difference from its parent that a derived guide keeps over the dispatch.
+    float     guide_keep;
     // Parameters of the grid for looking up any number of colliders, from the head's origin.
     hair_vec4 cells_lower; // xyz: lower corner, m. w: 1 / side of a cell, 1/m.
     hair_uint cells_x, cells_y, cells_z;

@@ -28,7 +28,8 @@
 // hair_vec4[] per guide vertex. Frame of its segment, unit quaternion, y along the segment.
 #define HAIR_BIND_MATERIAL 5
 // uint[] of every solver. It begins with HAIR_SOLVER_STATS_COUNT counters. For solvers that run as
-// two programs, the two headers and the numbers of HAIR_SOLVER_STATS_LISTS follow.
+// two programs, the two headers and the numbers of HAIR_SOLVER_STATS_LISTS follow. It ends with the
+// order of guides, see sim/guide_level.glsl.
 #define HAIR_BIND_SOLVER_STATS 6
 // hair_vec4[] of the mixed scheme, in place of HAIR_BIND_REDUCTION. See bend_size() in
 // lib/sim/rods.c.

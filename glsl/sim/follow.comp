@@ -97,9 +97,13 @@ void attempt_all(vec3 head_moved)
 }
 
 #include "sim/substeps.glsl"
+#include "sim/guide_level.glsl"
 
 void main()
 {
-    guide_number = hair_guide_number();
-    if (guide_number < params.guides) solve();
+    uint k = hair_guide_number();
+    if (k < params.simulated) {
+        guide_number = simulated_guide(k);
+        solve();
+    }
 }

@@ -39,9 +39,13 @@ layout(local_size_x = GROUP_THREADS) in;
 #include "sim/substeps.glsl"
 
 #include "sim/mixed_parts.glsl"
+#include "sim/guide_level.glsl"
 
 void main()
 {
-    guide_number = hair_guide_number();
-    if (guide_number < params.guides) solve();
+    uint k = hair_guide_number();
+    if (k < params.simulated) {
+        guide_number = simulated_guide(k);
+        solve();
+    }
 }

@@ -93,6 +93,7 @@ void attempt_all(vec3 head_moved)
 
 #include "sim/substeps.glsl"
 #include "sim/guide_list.glsl"
+#include "sim/guide_level.glsl"
 
 // Many guides go through two programs. The first knows only the solver's own method. The second
 // knows all methods, and does the guides that the first leaves. The first thus takes fewer
@@ -104,7 +105,8 @@ void main()
          guides_at_once = hair_group_count() * GUIDES_IN_GROUP;
 #if defined(HAIR_PASS1)
     if (first == 0u && lane == 0u) clear_list(1u - params.list);
-    for (guide_number = first; guide_number < params.guides; guide_number += guides_at_once) {
+    for (uint k = first; k < params.simulated; k += guides_at_once) {
+        guide_number = simulated_guide(k);
         bool done = solve();
         if (!done && lane == 0u) add_to_list(guide_number);
         GROUP_BARRIER;
@@ -117,7 +119,9 @@ void main()
         GROUP_BARRIER;
     }
 #else
-    guide_number = first;
-    if (guide_number < params.guides) solve();
+    if (first < params.simulated) {
+        guide_number = simulated_guide(first);
+        solve();
+    }
 #endif
 }

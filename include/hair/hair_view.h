@@ -111,8 +111,8 @@ typedef enum hair_slice {
 /// Lines have no width, so they cover less. HAIR_SELF_SHADOW_STRANDS computes the light of drawn
 /// strands only.
 ///
-/// Small hair does not get new light in every frame, by light_pixels, and need not move in every
-/// frame, by motion_pixels.
+/// Small hair does not get new light in every frame, by light_pixels. It need not move in every
+/// frame, by motion_pixels, and need not simulate all of its guides, by guide_pixels.
 ///
 /// With per_patch, two more details depend on the size on the screen. Cells of
 /// HAIR_SELF_SHADOW_STRANDS are at least 1 pixel large. Followers are pushed out of colliders only
@@ -161,6 +161,14 @@ typedef struct hair_lod {
     /// stepped in every frame, and so is that of HAIR_SOLVER_REDBLACK. 0 steps all hair in every
     /// frame.
     float motion_pixels; ///< Pixels. [0, 10000]. Default 0.
+    /// Size of hair at rest on the screen up to which only half of the guides are simulated. With
+    /// half of the size it is a quarter, and with a quarter of it an eighth. The other guides turn
+    /// as the simulated guides beside them do, keep their lengths, and do not collide. Hair that
+    /// changes its level goes on from its shape, within about a second.
+    ///
+    /// Motion then depends on views. The largest hair of all views in colour counts. Hair that
+    /// motion_pixels lets be stepped in every frame has all its guides simulated. 0 simulates all.
+    float guide_pixels; ///< Pixels. [0, 10000]. Default 0.
 } hair_lod;
 HAIR_DESC(hair_lod)
 

@@ -72,9 +72,11 @@ struct hair_field_detail {
     uint32_t spare_views; // number of views in sequence that need fewer voxels
 };
 
-// Frames in which an instance is stepped.
+// Frames in which an instance is stepped, and guides that are simulated then.
 struct hair_pace {
-    uint32_t wanted; // Minimum hair_sim.interval that views want since the last step, or 0.
+    // Minima of hair_sim.interval and of the stride of guides that views want since the last step, or
+    // 0 without views.
+    uint32_t wanted_interval, wanted_stride;
     double pending; // Time that the next step advances by in addition to its own, s.
     struct hair_pose head; // Head at the end of `pending`.
 };

@@ -1,25 +1,45 @@
-// pace.c - small hair that is stepped in some frames only, and follows the head in the others.
+// pace.c - small hair that is stepped in some frames only, and follows the head in the others, or
+// that simulates some of its guides only.
 #include "lib/api/api.h"
 
 #include <math.h>
 
 #define MAX_INTERVAL 4 // Maximum number of frames from one step to the next.
-#define LAG 1.2f // Relative size that hair must exceed before a shorter interval is restored.
+// Relative size that hair must exceed before a shorter interval or stride is restored.
+#define LAG 1.2f
 
 uint32_t hair_find_interval(float limit, float pixels)
 {
     return (uint32_t)fminf(1 + floorf(limit / fmaxf(pixels, 1)), MAX_INTERVAL);
 }
 
+// Return the stride of simulated guides for hair of a size.
+static uint32_t find_stride(float limit, float pixels)
+{
+    uint32_t stride = 1;
+    while (stride < HAIR_MAX_GUIDE_STRIDE && limit >= (float)stride * fmaxf(pixels, 1)) stride *= 2;
+    return stride;
+}
+
+// Return what a function finds for a size, or what was used last while hair is hardly larger.
+static uint32_t choose(uint32_t (*find)(float limit, float pixels), float limit, float pixels, uint32_t last)
+{
+    uint32_t wanted = find(limit, pixels);
+    if (wanted >= last) return wanted;
+    uint32_t lagging = find(LAG * limit, pixels);
+    return lagging < last ? lagging : last;
+}
+
 void hair_pace_note(hair_instance* hair, const hair_lod* lod, float pixels)
 {
     struct hair_pace* pace = &hair->pace;
-    uint32_t wanted = lod ? hair_find_interval(lod->motion_pixels, pixels) : 1, now = hair->sim.interval;
-    if (lod && wanted < now) {
-        uint32_t lagging = hair_find_interval(LAG * lod->motion_pixels, pixels);
-        wanted = lagging < now ? lagging : now;
+    uint32_t interval = 1, stride = 1;
+    if (lod) {
+        interval = choose(hair_find_interval, lod->motion_pixels, pixels, hair->sim.interval);
+        stride = choose(find_stride, lod->guide_pixels, pixels, hair->sim.guide_level.wanted);
     }
-    if (!pace->wanted || wanted < pace->wanted) pace->wanted = wanted;
+    if (!pace->wanted_interval || interval < pace->wanted_interval) pace->wanted_interval = interval;
+    if (!pace->wanted_stride || stride < pace->wanted_stride) pace->wanted_stride = stride;
 }
 
 bool hair_pace_wait(hair_instance* hair, double time)
@@ -27,8 +47,10 @@ bool hair_pace_wait(hair_instance* hair, double time)
     struct hair_pace* pace = &hair->pace;
     // Without its own step, hair can only follow the head.
     bool may_wait = hair_sim_has_attached_strands(&hair->sim) && !hair_impulses_are_on(&hair->sim);
-    uint32_t interval = !may_wait ? 1 : pace->wanted ? pace->wanted : hair->sim.interval;
-    pace->wanted = 0;
+    uint32_t wanted = pace->wanted_interval ? pace->wanted_interval : hair->sim.interval;
+    uint32_t interval = may_wait ? wanted : 1;
+    if (pace->wanted_stride) hair_sim_set_guide_stride(&hair->sim, pace->wanted_stride);
+    pace->wanted_interval = pace->wanted_stride = 0;
     hair_sim_set_interval(&hair->sim, interval);
     uint32_t frame = hair->profiler.number + 1;
     bool is_due = (frame + hair->renderer.light_age.turn) % interval == 0;

@@ -40,7 +40,8 @@ hair_result hair_precompile(hair_instance* hair, const hair_view* view, bool* re
     if (view) hair_make_plan(hair, &own.view, &plan);
     hair_enter_unprofiled(hair);
     hair_gl_begin_async(gl);
-    hair_result result = hair_sim_ensure_programs(&hair->sim);
+    bool may_derive = view && own.view.lod && own.view.lod->guide_pixels > 0;
+    hair_result result = hair_sim_ensure_programs(&hair->sim, may_derive);
     if (!result && view) result = ensure_programs(hair, &plan);
     uint32_t pending = hair_gl_end_async(gl);
     result = hair_leave(hair->context, result);

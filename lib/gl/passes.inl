@@ -157,6 +157,8 @@ PASS(ACCURATE, "sim/accurate", SOLVE, RECORDED_FEATURES | WITH(PASS1) | WITH(PAS
 PASS(ACCURATE_STIFF, "sim/accurate_stiff", SOLVE, RECORDED_FEATURES | WITH(PASS1) | WITH(PASS2),
      "HAIR_SOLVER=0 HAIR_STIFF=1 sim/rod.comp")
 PASS(MIXED_SOLVER, "sim/mixed", SOLVE, RECORDED_FEATURES, "HAIR_SOLVER=1 HAIR_MIXED=1 sim/mixed.comp")
+PASS(DERIVE_BEGIN, "sim/derive_begin", SOLVE, WITH(MIXED), "HAIR_BEGIN=1 sim/derive_guides.comp")
+PASS(DERIVE_GUIDES, "sim/derive_guides", SOLVE, WITH(MIXED), "sim/derive_guides.comp")
 PASS(FOLLOW, "sim/follow", SOLVE, STRAND_FEATURES, "sim/follow.comp")
 PASS(REDBLACK, "sim/redblack", SOLVE, SIZES | WITH(SKINNED), "sim/redblack.comp")
 // Redblack by transform feedback, in the order of HAIR_PHASE.

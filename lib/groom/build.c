@@ -111,6 +111,7 @@ static hair_result build_groom(struct hair_groom_builder* builder)
     HAIR_TRY(hair_measure_strands(builder));
     HAIR_TRY(hair_build_guides(builder));
     HAIR_TRY(hair_build_rest(builder));
+    HAIR_TRY(hair_order_guides(builder->groom));
     HAIR_TRY(hair_build_guide_factors(builder));
     HAIR_TRY(count_candidates(builder));
     HAIR_TRY(hair_build_scalp_points(builder));
@@ -206,6 +207,7 @@ void hair_groom_release(hair_groom* groom)
     hair_host host = groom->host;
     hair_free(&host, groom->guides);
     hair_free(&host, groom->rest);
+    hair_free(&host, groom->guide_order);
     hair_free(&host, groom->roots);
     hair_free(&host, groom->followers);
     hair_free(&host, groom->guide_shapes);

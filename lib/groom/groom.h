@@ -14,6 +14,7 @@ struct hair_groom {
     hair_groom_info info;
     struct hair_guide* guides; // info.guide_count
     struct hair_rest* rest; // info.guide_vertex_count
+    uint32_t* guide_order; // Guides in an order of levels of detail, see guide_order.c.
     float* roots; // xyz of the root of each guide
     hair_vec3 lower, upper; // bounds of the guides at rest, m
     // info.follower_count, and after them the shapes of followers, HAIR_SHAPE_TEXELS() of 16 bytes
@@ -86,6 +87,8 @@ float hair_groom_follower_factor(const struct hair_groom* groom, uint32_t follow
 
 // Find the roots and the bounds of the guides at rest.
 hair_result hair_measure_rest(struct hair_groom* groom);
+// Find the order of guides for levels of detail, from their rest shape.
+hair_result hair_order_guides(struct hair_groom* groom);
 // Return the root of a guide.
 static inline hair_vec3 hair_guide_root(const struct hair_groom* groom, uint32_t guide)
 {

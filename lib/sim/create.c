@@ -1,6 +1,8 @@
 // create.c - creation and destruction of a simulation.
 #include "lib/sim/sim.h"
 
+#include <string.h>
+
 #define REDBLACK_SUBSTEP (1.0 / 120)
 // Maximum vertices of a guide for a thread per guide. NVIDIA's driver fails to link programs with
 // more private memory.
@@ -12,6 +14,7 @@ static void set_up(struct hair_sim* sim, const struct hair_sim_desc* desc)
     sim->asked_substep = desc->substep;
     sim->rate_factor = 1;
     sim->interval = 1;
+    sim->guide_level.wanted = 1;
     sim->by_thread = desc->is_by_thread && desc->solver != HAIR_SOLVER_REDBLACK;
     sim->feedback.wanted = desc->uses_feedback;
     sim->diagnosis.wanted = desc->is_diagnosed;
@@ -48,6 +51,20 @@ static void measure_groom(struct hair_sim* sim, const struct hair_groom* groom)
     sim->scalp_motion.root_bindings = hair_root_bindings_retain(groom->root_bindings);
 }
 
+// Create the counters, the lists of two programs, and the order of guides.
+static hair_result create_solver_stats(struct hair_sim* sim, const struct hair_groom* groom)
+{
+    sim->guide_order = sim->two_pass ? HAIR_SOLVER_STATS_LISTS + sim->guides : HAIR_SOLVER_STATS_COUNT;
+    size_t count = sim->guide_order + (size_t)sim->guides;
+    uint32_t* all = hair_alloc(&sim->gl->host, count, sizeof *all);
+    if (!all) return hair_fail_memory(&sim->gl->host, "the solver's counters");
+    memcpy(all + sim->guide_order, groom->guide_order, sim->guides * sizeof *all);
+    hair_result result = hair_gl_storage(sim->gl, HAIR_GL_CATEGORY_SOLVE, "hair solver stats",
+                                         count * sizeof *all, all, &sim->solver_stats);
+    hair_free(&sim->gl->host, all);
+    return result;
+}
+
 hair_result hair_sim_create(struct hair_sim* sim, struct hair_gl* gl, const struct hair_groom* groom,
                             const struct hair_sim_desc* desc)
 {
@@ -56,16 +73,13 @@ hair_result hair_sim_create(struct hair_sim* sim, struct hair_gl* gl, const stru
     set_up(sim, desc);
     measure_groom(sim, groom);
     size_t state = sim->guide_vertices * sizeof(struct hair_state);
-    size_t solver_stats =
-        sim->two_pass ? HAIR_SOLVER_STATS_LISTS + (size_t)sim->guides : HAIR_SOLVER_STATS_COUNT;
     HAIR_TRY(hair_gl_storage(gl, HAIR_GL_CATEGORY_SOLVE, "hair guides", sim->guides * sizeof *groom->guides,
                              groom->guides, &sim->guide));
     HAIR_TRY(hair_gl_storage(gl, HAIR_GL_CATEGORY_SOLVE, "hair rest",
                              sim->guide_vertices * sizeof *groom->rest, groom->rest, &sim->rest));
     // hair_sim_reset() writes all state of a new simulation.
     HAIR_TRY(hair_gl_undefined_storage(gl, HAIR_GL_CATEGORY_SOLVE, "hair state", state, &sim->state));
-    HAIR_TRY(hair_gl_storage(gl, HAIR_GL_CATEGORY_SOLVE, "hair solver stats", solver_stats * sizeof(uint32_t),
-                             NULL, &sim->solver_stats));
+    HAIR_TRY(create_solver_stats(sim, groom));
     HAIR_TRY(hair_gl_uniform(gl, HAIR_GL_CATEGORY_SOLVE, "hair step", sizeof(struct hair_step_params),
                              &sim->step));
     if (sim->solver == HAIR_SOLVER_REDBLACK)

@@ -200,7 +200,8 @@ static void run_list(struct hair_sim* sim, hair_gl_pass listed, uint32_t list)
         hair_gl_run_indirect(gl, listed, hair_gl_find(gl, listed)->program, sim->solver_stats, at);
         return;
     }
-    uint32_t each = hair_sim_guides_of_list_group(sim), all = (sim->guides + each - 1) / each;
+    uint32_t each = hair_sim_guides_of_list_group(sim);
+    uint32_t all = (hair_guide_simulated(sim) + each - 1) / each;
     uint32_t at_once = GROUPS_OF_LIST * (gl->units > 0 ? (uint32_t)gl->units : ASSUMED_UNITS);
     hair_gl_run(gl, listed, all < at_once ? all : at_once);
 }
@@ -236,8 +237,9 @@ static void run_in_time(struct hair_sim* sim, hair_gl_pass pass, uint32_t groups
 void hair_sim_run_solver(struct hair_sim* sim, struct hair_step_params* params)
 {
     hair_gl_pass pass = pass_now(sim);
-    uint32_t by_thread = (sim->guides + GUIDES_PER_GROUP - 1) / GUIDES_PER_GROUP;
-    uint32_t groups = hair_sim_is_by_thread(sim) ? by_thread : sim->guides;
+    uint32_t guides = hair_guide_simulated(sim),
+             by_thread = (guides + GUIDES_PER_GROUP - 1) / GUIDES_PER_GROUP;
+    uint32_t groups = hair_sim_is_by_thread(sim) ? by_thread : guides;
     if (uses_two_passes_by_shake(sim)) {
         HAIR_ASSERT(sim->two_pass);
         run_in_time(sim, pass | HAIR_GL_WITH(PASS1), groups, params->substeps);
@@ -251,9 +253,10 @@ void hair_sim_run_solver(struct hair_sim* sim, struct hair_step_params* params)
     }
 }
 
-hair_result hair_sim_ensure_programs(struct hair_sim* sim)
+hair_result hair_sim_ensure_programs(struct hair_sim* sim, bool may_derive)
 {
     struct hair_gl* gl = sim->gl;
+    if (may_derive) HAIR_TRY(hair_guide_level_ensure_programs(sim));
     int listed = hair_contacts_are_listed(sim), by_thread = hair_sim_is_by_thread(sim);
     HAIR_TRY(ensure_solver(sim, solver_pass_for(sim, listed, has_bodies(sim), by_thread)));
     if (listed && sim->by_thread && gl->software) // The lists of a step decide which.

@@ -314,4 +314,5 @@ void hair_sim_serialize(struct hair_serializer* s, struct hair_sim* sim, struct 
     hair_serialize_uint(s, "how many times as long substeps are", &sim->substep_scale, MAX_SUBSTEP_SCALE);
     hair_serialize_double(s, "time since hair was seen", &sim->unseen, 0, 1);
     serialize_wind_coupling(s, &sim->wind_coupling);
+    hair_serialize_uint(s, "stride of simulated guides", &sim->guide_level.last, HAIR_MAX_GUIDE_STRIDE);
 }

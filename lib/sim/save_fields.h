@@ -6,7 +6,7 @@
 #include "lib/sim/sim.h"
 
 // Version of the fields and of their meaning. Raise it with any change of these.
-#define HAIR_SAVE_VERSION 15
+#define HAIR_SAVE_VERSION 16
 
 // Bytes before the fields of a saved state and after them.
 #define HAIR_SAVE_HEADER 20

@@ -59,6 +59,12 @@ void hair_sim_set_interval(struct hair_sim* sim, uint32_t frames)
     sim->interval = frames > 1 ? frames : 1;
 }
 
+void hair_sim_set_guide_stride(struct hair_sim* sim, uint32_t stride)
+{
+    HAIR_ASSERT(0 < stride && stride <= HAIR_MAX_GUIDE_STRIDE && (stride & (stride - 1)) == 0);
+    sim->guide_level.wanted = stride;
+}
+
 bool hair_sim_has_fixed_roots(const struct hair_sim* sim)
 {
     return (sim->physics.root != HAIR_ROOT_FREE || !sim->rods) && !hair_scalp_motion_is_on(sim) &&

@@ -22,6 +22,7 @@ static hair_result prepare(struct hair_sim* sim, double from, double dt, double 
     if (sim->rods) HAIR_TRY(hair_wind_ensure(&sim->wind_state, sim->gl, &sim->wind));
     if (sim->contacts.any) HAIR_TRY(hair_contacts_find(sim, dt, fraction_of_step(from, dt), longest));
     HAIR_TRY(hair_impulses_ensure(sim));
+    HAIR_TRY(hair_guide_level_ensure(sim));
     return hair_sim_ensure_solver(sim);
 }
 
@@ -86,6 +87,7 @@ static void write_dispatch(struct hair_sim* sim, struct hair_step_params* params
     sim->last_substep = sim->substep;
     hair_sim_write_substeps(sim, params, count, from, dt);
     hair_sim_write_now(sim, params);
+    hair_guide_level_write(sim, params, count * sim->substep);
     params->list = hair_sim_flip_work_list(sim);
     hair_sim_upload(sim, params);
 }
@@ -152,7 +154,9 @@ static void advance(struct hair_sim* sim, bool again, uint32_t total, double fro
         update_forces(sim, dt);
         write_dispatch(sim, &params, count, from + done * sim->substep, dt);
         bind_forces(sim, &params);
+        hair_guide_level_begin(sim);
         run_solver(sim, &params);
+        hair_guide_level_end(sim);
         end_dispatch(sim, &params, count);
     }
     if (total == 0) {

@@ -12,6 +12,7 @@
 #include "lib/sim/hair_grid.h"
 #include "lib/sim/feedback.h"
 #include "lib/sim/impulses.h"
+#include "lib/sim/guide_level.h"
 #include "lib/sim/lengths.h"
 #include "lib/sim/snapshot.h"
 #include "lib/sim/solver_stats.h"
@@ -112,6 +113,8 @@ struct hair_sim {
     uint32_t substep_scale;
     float rate_factor; // Factor of hair_physics.substep_rate, a power of two. At most 1.
     uint32_t interval; // Number of frames from one step to the next.
+    struct hair_guide_level guide_level;
+    uint32_t guide_order; // Index in `solver_stats` of the order of guides.
     double unseen; // Time since a view last showed any of this hair, s.
     uint32_t guides, guide_vertices, smooth_vertices;
     uint32_t max_vertices; // Maximum number of vertices of a guide.
@@ -211,6 +214,8 @@ void hair_sim_scale_substep_rate(struct hair_sim* sim, float factor);
 // Set the number of frames from one step to the next. Substeps are longer by as much, up to a power
 // of two.
 void hair_sim_set_interval(struct hair_sim* sim, uint32_t frames);
+// Simulate one guide of every `stride` from the next step on: 1, 2, 4 or HAIR_MAX_GUIDE_STRIDE.
+void hair_sim_set_guide_stride(struct hair_sim* sim, uint32_t stride);
 // Return whether no strand leaves the reach of its patch, because the scalp holds all roots where
 // the groom has them.
 bool hair_sim_has_fixed_roots(const struct hair_sim* sim);
@@ -343,8 +348,9 @@ hair_result hair_sim_ensure_solver(struct hair_sim* sim);
 uint32_t hair_sim_flip_work_list(struct hair_sim* sim);
 // Run the solver with parameters that have been uploaded.
 void hair_sim_run_solver(struct hair_sim* sim, struct hair_step_params* params);
-// Compile all programs that a step with the current settings runs.
-hair_result hair_sim_ensure_programs(struct hair_sim* sim);
+// Compile all programs that a step with the current settings runs. `may_derive` is true if the
+// step may simulate some guides only.
+hair_result hair_sim_ensure_programs(struct hair_sim* sim, bool may_derive);
 // Return whether a thread solves a guide, and not a work group.
 bool hair_sim_is_by_thread(const struct hair_sim* sim);
 // Return the maximum number of substeps of a dispatch.

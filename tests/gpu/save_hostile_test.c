@@ -22,8 +22,8 @@ enum {
     COLLIDERS = POSES + 4 * 40 + 3 * 8, // After the displacement of gusts.
     COLLIDER_BYTES = 72,
     PIN_BYTES = 36,
-    // Bytes of sleeping without a pending measurement, and of wind without a fluid.
-    SLEEP = 144
+    // Bytes of sleeping without a pending measurement, of wind without a fluid, and of the level.
+    SLEEP = 148
 };
 
 // Compute the library's hash, so that harmful bytes look undamaged.
@@ -153,11 +153,12 @@ static void refused_load_changes_nothing(void** state)
         {load_short, 27, HAIR_ERROR_FILE, "the 27 bytes are no saved state"},
         {load_short, 28, HAIR_ERROR_FILE, "ends at byte 28, not at byte "},
         {load_flipped, 3, HAIR_ERROR_FILE, "\"hairsave\" at byte 0"},
-        {load_flipped, VERSION, HAIR_ERROR_FILE, "the version at byte 8 of the saved state is 14, not 15"},
+        {load_flipped, VERSION, HAIR_ERROR_FILE, "the version at byte 8 of the saved state is 17, not 16"},
         {load_flipped, WHOLE, HAIR_ERROR_FILE, "as byte 12 says"},
         {load_flipped, tip, HAIR_ERROR_FILE, "is damaged"},
         {load_flipped, good.size - 1, HAIR_ERROR_FILE, "is damaged"},
-        {load_sealed_short, 1, HAIR_ERROR_FILE, "within the whether air is a fluid at byte "},
+        {load_sealed_short, 1, HAIR_ERROR_FILE, "within the stride of simulated guides at byte "},
+        {load_sealed_short, 5, HAIR_ERROR_FILE, "within the whether air is a fluid at byte "},
         {load_sealed_short, SLEEP + 1, HAIR_ERROR_FILE,
          "within the number of substeps since the last update of the hair grid at byte "},
         {load_sealed_short, SLEEP + 5 + forces, HAIR_ERROR_FILE,

@@ -133,6 +133,21 @@ void hair_reference_shaped(const struct hair_follower* follower, const hair_look
                            const struct hair_reference_shapes* shapes, double t, double freed,
                            struct hair_reference_point* out);
 
+// derive.cpp --------------------------------------------------------------------------------------
+
+/// Input of hair_reference_derive().
+struct hair_reference_derived {
+    const struct hair_guide *own, *parent;
+    const struct hair_rest* rest; ///< Rest data of all vertices.
+    const struct hair_state* state; ///< States of all vertices, of which those of the parent count.
+    const hair_vec4* material; ///< Frames of all segments. NULL turns segments by least rotations.
+    double head[4], head_before[4]; ///< Rotation of the head after and before the last substep.
+    double head_moved[3]; ///< Displacement of the head's origin in the last substep, m.
+};
+
+/// Compute positions and displacements of a guide that turns as its parent does, xyz per vertex.
+void hair_reference_derive(const struct hair_reference_derived* in, double* positions, double* displacements);
+
 // skin.cpp ----------------------------------------------------------------------------------------
 
 /// Compute the position of a vertex that four joints move, by linear blend skinning. Matrices are

@@ -158,7 +158,7 @@ hair_groom* hair_test_groom(const hair_host* host, struct hair_test_handmade wan
     groom->info.guide_vertex_count = vertices;
     groom->info.patch_count = patches;
     measure_guides(groom);
-    if (hair_measure_rest(groom)) abort();
+    if (hair_measure_rest(groom) || hair_order_guides(groom)) abort();
     hair_measure_patches(groom);
     groom->head_sphere = hair_find_head_sphere(groom);
     return groom;

@@ -19,6 +19,8 @@ FLOAT(hair_lod, light_pixels, 128, 0, 10000, 0, 512, LINEAR, "pixels",
       "Size of hair at rest on the screen up to which its light is computed in every second frame only.")
 FLOAT(hair_lod, motion_pixels, 0, 0, 10000, 0, 512, LINEAR, "pixels",
       "Size of hair at rest on the screen up to which only every second hair_step() moves it.")
+FLOAT(hair_lod, guide_pixels, 0, 0, 10000, 0, 512, LINEAR, "pixels",
+      "Size of hair at rest on the screen up to which only half of the guides are simulated.")
 END
 BEGIN(hair_shader_desc)
 POINTER(hair_shader_desc, label, "Name in error messages, as in \"label:12: ...\".")
