@@ -36,12 +36,14 @@ static const struct heads_method {
     const char* name;
     bool by_list;
     float budget; // ms. 0 is none.
-    float motion_pixels; // of hair_lod
-} methods[] = {{"one by one", false, 0, 0},
-               {"list", true, 0, 0},
-               {"list by turns", true, 0, 128},
-               {"list in 10 ms", true, 10, 0},
-               {"list in 5 ms", true, 5, 0}};
+    float motion_pixels, guide_pixels; // of hair_lod
+} methods[] = {{"one by one", false, 0, 0, 0},
+               {"list", true, 0, 0, 0},
+               {"list of few guides", true, 0, 0, 128},
+               {"list by turns", true, 0, 128, 0},
+               {"few guides by turns", true, 0, 128, 128},
+               {"list in 10 ms", true, 10, 0, 0},
+               {"list in 5 ms", true, 5, 0, 0}};
 
 struct heads {
     struct bench* bench;
@@ -168,6 +170,7 @@ static hair_result run_frame(struct heads* heads, double* ms_cpu)
 {
     hair_lod lod = hair_lod_default();
     lod.motion_pixels = heads->method.motion_pixels;
+    lod.guide_pixels = heads->method.guide_pixels;
     hair_view view = make_view(&lod);
     hair_result result = HAIR_OK;
     const float zero[4] = {0}, one = 1;

@@ -62,11 +62,35 @@ static const struct row {
 #define ROW_COUNT ((int)(sizeof rows / sizeof *rows))
 #define SUITE_COUNT (sizeof suites / sizeof suites[0])
 
-static const char* const methods[] = {
-    "one by one",   "list",       "list by turns", "list in 10 ms", "list in 5 ms", "direct",  "accurate",
-    "follow",       "redblack",   "none",          "single_guide",  "push_out",     "compute", "prepass",
-    "tessellation", "procedural", "cached",        "multigrid",     "relaxation",   "jacobi",  "depth",
-    "strands",      "grid",       "mean",          "layers",        "followers",    NULL};
+static const char* const methods[] = {"one by one",
+                                      "list",
+                                      "list by turns",
+                                      "list of few guides",
+                                      "few guides by turns",
+                                      "list in 10 ms",
+                                      "list in 5 ms",
+                                      "direct",
+                                      "accurate",
+                                      "follow",
+                                      "redblack",
+                                      "none",
+                                      "single_guide",
+                                      "push_out",
+                                      "compute",
+                                      "prepass",
+                                      "tessellation",
+                                      "procedural",
+                                      "cached",
+                                      "multigrid",
+                                      "relaxation",
+                                      "jacobi",
+                                      "depth",
+                                      "strands",
+                                      "grid",
+                                      "mean",
+                                      "layers",
+                                      "followers",
+                                      NULL};
 // In the order of hair_thread_mapping.
 static const char* const mappings[] = {"auto", "workgroup_per_guide", "thread_per_guide", NULL};
 
