@@ -74,7 +74,7 @@ struct hair_field_detail {
 
 // Frames in which an instance is stepped, and guides that are simulated then.
 struct hair_pace {
-    // Minima of hair_sim.interval and of the stride of guides that views want since the last step, or
+    // Minima of hair_sim.interval and of the stride of guides that views want since the last step.
     // 0 without views.
     uint32_t wanted_interval, wanted_stride;
     double pending; // Time that the next step advances by in addition to its own, s.

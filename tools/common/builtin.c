@@ -104,7 +104,7 @@ const struct hair_builtin hair_builtin_styles[] = {
     {"fringe", HELD(8, 4, 8) SMOOTH POINTED "}"},
     {"fade", HELD(12, 10, 8) SMOOTH UNPARTED "}"},
     {"bun", HELD(12, 12, 8) CURLED EVEN "}"},
-    {"braid", HELD(12, 2, 8) CURLED BRAIDED "}"},
+    {"braid", HELD(18, 2, 8) CURLED BRAIDED "}"},
     {"curly", HELD(8, 3, 4) WOUND LOCKS "}"},
     {"afro", HELD(12, 8, 8) CURLED COILS "}"},
     {NULL, NULL},
