@@ -92,6 +92,8 @@ const struct hair_builtin hair_builtin_scenes[] = {
 // Coils of neighbouring guides have different phases. Near the roots, strands between them would be
 // straight and show the skin.
 #define COILS "'clump.weight': '0,0.6,0.75,0.75,0.7,0.65,0.6,0.6', 'clump.width': 1"
+// Long guides of tied hair buckle on the head when it moves, and lift patches, unless roots are held
+// firmly. A ponytail needs more than 18 Hz.
 #define HELD(root, tip, angular)                                                                             \
     "{'shape.frequency_root': " #root ", 'shape.frequency_tip': " #tip ", 'redblack.angular_hz': " #angular  \
     ", "
@@ -100,7 +102,7 @@ const struct hair_builtin hair_builtin_styles[] = {
     {"long", HELD(6, 1, 8) SMOOTH POINTED "}"},
     {"bob", HELD(8, 3, 8) SMOOTH POINTED "}"},
     {"short", HELD(10, 6, 8) SMOOTH POINTED "}"},
-    {"ponytail", HELD(12, 1.5, 8) SMOOTH EVEN "}"},
+    {"ponytail", HELD(26, 1.5, 8) SMOOTH EVEN "}"},
     {"fringe", HELD(8, 4, 8) SMOOTH POINTED "}"},
     {"fade", HELD(12, 10, 8) SMOOTH UNPARTED "}"},
     {"bun", HELD(12, 12, 8) CURLED EVEN "}"},
