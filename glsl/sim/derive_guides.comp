@@ -84,6 +84,7 @@ void main()
 {
     uint k  = hair_group(), t = gl_LocalInvocationID.x;
     uint at = k + k / (params.guide_stride - 1u) + 1u; // The places of parents are left out.
+    if (at >= params.guides) return;
     hair_guide own = guide[guide_in_order(at)], parent = guide[guide_in_order(at - at % params.guide_stride)];
     float own_segment    = own.arc_length / float(own.count - 1u);
     float parent_segment = parent.arc_length / float(parent.count - 1u);

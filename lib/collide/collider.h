@@ -10,6 +10,9 @@
 #include "glsl/shared.h"
 
 #define HAIR_MAX_COLLIDERS 1048576u // Maximum number of an instance.
+// Number of colliders from which a dispatch has less to do, because a thread may meet many of them,
+// one after the other.
+#define HAIR_MANY_COLLIDERS 1024
 
 // A list of colliders. It holds references to their collision meshes.
 struct hair_collider_list {

@@ -14,13 +14,10 @@
 #define MANY_COST 15
 // Vertices of the guides beyond which a vertex costs twice as much, because caches hold few.
 #define LARGE (1u << 20)
-// Colliders among which a substep of even few guides is so long that a dispatch has one. A thread
-// may meet many of them, one after the other.
-#define MANY_COLLIDERS 1024
 
 static bool has_many_colliders(const struct hair_sim* sim)
 {
-    return sim->contacts.any && hair_sim_colliders(sim)->count >= MANY_COLLIDERS;
+    return sim->contacts.any && hair_sim_colliders(sim)->count >= HAIR_MANY_COLLIDERS;
 }
 
 // Return the time of a vertex in a substep of the solver, ns.

@@ -10,7 +10,6 @@
 // measures them. Among many colliders most followers stay inside one, and take all rounds.
 #define PUSHED 8192
 #define PUSHED_AMONG_MANY 1024
-#define MANY_COLLIDERS 1024
 
 // Return the pass that finds hits. GPUs need many threads with short loops. A software rasteriser
 // needs the least total work.
@@ -90,7 +89,7 @@ static void run_collision(struct hair_geometry* geometry, const struct hair_coll
     // Work groups beyond the end of the list return at once.
     if (geometry->look.followers.collision != HAIR_FOLLOWER_COLLISION_PUSH_OUT) return;
     each = gl->software ? HAIR_REPAIR_ALONE : 1;
-    uint32_t max = field->near < MANY_COLLIDERS ? PUSHED : PUSHED_AMONG_MANY;
+    uint32_t max = field->near < HAIR_MANY_COLLIDERS ? PUSHED : PUSHED_AMONG_MANY;
     hair_gl_limit_groups(gl, repair_of(geometry), max / each);
     hair_gl_run(gl, repair_of(geometry), (geometry->followers + each - 1) / each);
 }

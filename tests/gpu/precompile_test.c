@@ -166,6 +166,7 @@ static void leave_out(struct fixture* f, hair_view* view)
     static hair_lod lod;
     lod = hair_lod_default();
     lod.strand_fraction = 0.5f;
+    lod.guide_pixels = 1e4f;
     view->lod = &lod;
     put_a_ball_into(f, view);
 }

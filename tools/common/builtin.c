@@ -92,8 +92,8 @@ const struct hair_builtin hair_builtin_scenes[] = {
 // Coils of neighbouring guides have different phases. Near the roots, strands between them would be
 // straight and show the skin.
 #define COILS "'clump.weight': '0,0.6,0.75,0.75,0.7,0.65,0.6,0.6', 'clump.width': 1"
-// Long guides of tied hair buckle on the head when it moves, and lift patches, unless roots are held
-// firmly. A ponytail needs more than 18 Hz.
+// Long guides of tied hair buckle on the head when it moves, and lift patches, unless their roots
+// are held firmly. A ponytail needs more than 18 Hz.
 #define HELD(root, tip, angular)                                                                             \
     "{'shape.frequency_root': " #root ", 'shape.frequency_tip': " #tip ", 'redblack.angular_hz': " #angular  \
     ", "
