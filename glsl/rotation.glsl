@@ -15,6 +15,9 @@ vec3 rotate(vec4 q, vec3 v)
     return v + q.w * t + cross(q.xyz, t);
 }
 
+// Return the direction of a segment, which is the y axis of its frame.
+vec3 along_of(vec4 q) { return rotate(q, vec3(0.0, 1.0, 0.0)); }
+
 // Return the smallest rotation that turns unit vector a into unit vector b. For opposite vectors it
 // is half a turn about any perpendicular.
 vec4 quat_between(vec3 a, vec3 b)

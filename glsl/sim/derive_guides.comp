@@ -12,7 +12,6 @@
 #include "rotation.glsl"
 layout(local_size_x = HAIR_GROUP_SIZE) in;
 
-vec3 along_of(vec4 q) { return rotate(q, vec3(0.0, 1.0, 0.0)); }
 vec3 direction_of(vec3 v) { return direction_or(v, vec3(0.0, -1.0, 0.0)); }
 
 // Frame of a segment of the parent, and its direction a substep ago.

@@ -27,8 +27,6 @@ layout(std140, binding = HAIR_BIND_ENERGY_PARAMS) uniform energy_params_buffer {
 
 float grain; // Uncertainty of the guide's energy
 
-vec3 along_of(vec4 q) { return rotate(q, vec3(0.0, 1.0, 0.0)); }
-
 // Add the energy of a vertex that is not held.
 void add_vertex(uint i, vec3 root, bool has_rate, inout vec4 sum)
 {

@@ -67,7 +67,6 @@ bool root_is_clamped; // The hinge at the root has a stiffness.
 vec3 root_ratio;      // Value of params.ratio for the hinge at the root
 
 vec4 turn_by(vec3 v) { return normalize(vec4(0.5 * v, 1.0)); }
-vec3 along_of(vec4 q) { return rotate(q, vec3(0.0, 1.0, 0.0)); }
 
 // Return the change of v when q turns it. A small turn loses no digits.
 vec3 change_by(vec4 q, vec3 v)

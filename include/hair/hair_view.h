@@ -166,8 +166,8 @@ typedef struct hair_lod {
     /// as the simulated guides beside them do, keep their lengths, and do not collide. Hair that
     /// changes its level goes on from its shape, within about a second.
     ///
-    /// Motion then depends on views. The largest hair of all views in colour counts. Hair that
-    /// motion_pixels lets be stepped in every frame has all its guides simulated. 0 simulates all.
+    /// Motion then depends on views. The largest hair of all views in colour counts. Kinds of hair
+    /// that motion_pixels excepts simulate all guides. 0 simulates all guides of any hair.
     float guide_pixels; ///< Pixels. [0, 10000]. Default 0.
 } hair_lod;
 HAIR_DESC(hair_lod)

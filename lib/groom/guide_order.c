@@ -10,20 +10,18 @@
 #include <float.h>
 #include <string.h>
 
-#define BLOCK 8u // Maximum guides of a block, HAIR_MAX_GUIDE_STRIDE.
+#define BLOCK ((uint32_t)HAIR_MAX_GUIDE_STRIDE) // Maximum guides of a block.
 #define DIMENSIONS 7 // Root, tip and group.
 #define GROUP_DISTANCE 1e3f // Distance between groups in the order, m. Blocks rarely mix them.
 #define NOBODY UINT32_MAX
 
-_Static_assert(BLOCK == HAIR_MAX_GUIDE_STRIDE, "blocks are as large as strides");
-
 static void write_point(const struct hair_groom* groom, uint32_t guide, float* point)
 {
     const struct hair_guide* own = &groom->guides[guide];
-    const hair_vec4 *root = &groom->rest[own->first].position, *tip = root + 2 * (own->count - 1);
-    HAIR_ASSERT(sizeof(struct hair_rest) == 2 * sizeof(hair_vec4));
+    hair_vec4 root = groom->rest[own->first].position;
+    hair_vec4 tip = groom->rest[own->first + own->count - 1].position;
     const float at[DIMENSIONS] = {
-        root->x, root->y, root->z, tip->x, tip->y, tip->z, GROUP_DISTANCE * (float)own->group};
+        root.x, root.y, root.z, tip.x, tip.y, tip.z, GROUP_DISTANCE * (float)own->group};
     memcpy(point, at, sizeof at);
 }
 

@@ -43,17 +43,18 @@ hair_result hair_guide_level_ensure(struct hair_sim* sim)
 
 static void run(struct hair_sim* sim, hair_gl_pass pass)
 {
-    hair_gl_run(sim->gl, derive_pass(sim, pass), sim->guides - hair_guide_simulated(sim));
+    uint32_t derived = sim->guides - hair_guide_simulated(sim);
+    if (derived) hair_gl_run(sim->gl, derive_pass(sim, pass), derived);
 }
 
 void hair_guide_level_begin(struct hair_sim* sim)
 {
     uint32_t stride = hair_guide_stride(sim), last = sim->guide_level.last;
     sim->guide_level.last = stride;
-    if (stride > 1 && stride != last && sim->guides > 1) run(sim, HAIR_GL_DERIVE_BEGIN);
+    if (stride != last) run(sim, HAIR_GL_DERIVE_BEGIN);
 }
 
 void hair_guide_level_end(struct hair_sim* sim)
 {
-    if (hair_guide_stride(sim) > 1 && sim->guides > 1) run(sim, HAIR_GL_DERIVE_GUIDES);
+    run(sim, HAIR_GL_DERIVE_GUIDES);
 }

@@ -13,8 +13,8 @@ struct hair_guide_level {
     uint32_t last; // Stride of the last dispatch. 0 before the first.
 };
 
-// Return the stride of the next dispatch. Guides that something else than the scalp holds or
-// counts are all simulated, as by hair_lod.guide_pixels.
+// Return the stride of the next dispatch. The stride is 1 for hair that hair_lod.guide_pixels
+// excepts.
 uint32_t hair_guide_stride(const struct hair_sim* sim);
 // Return the number of guides that the next dispatch simulates.
 uint32_t hair_guide_simulated(const struct hair_sim* sim);
