@@ -87,7 +87,7 @@ TEST_LIBS   = $(call packages,--libs,cmocka epoxy egl libpng jansson libxxhash) 
 VIEW_CFLAGS = $(patsubst -I%,-isystem %,$(call packages,--cflags,sdl2 imgui))
 VIEW_LIBS   = $(call packages,--libs,imgui sdl2) -ldl
 EXAMPLE_LIBS = $(call packages,--libs,epoxy egl sdl2) -pthread -lm
-EIGEN       = $(call packages,--cflags,eigen3)
+EIGEN       = $(patsubst -I%,-isystem %,$(call packages,--cflags,eigen3))
 BULLET_CFLAGS = $(patsubst -I%,-isystem %,$(call packages,--cflags,bullet))
 # The library needs only these two of Bullet's libraries, not dynamics or soft bodies.
 BULLET_LIBS   = $(filter -L% -lBulletCollision -lLinearMath,$(call packages,--libs,bullet))
@@ -148,6 +148,17 @@ hosts: ## Print and install the missing Debian packages of the hosts that `make 
 setup: ## Print and install the missing Debian packages of tools/packages.txt
 	@[ "$(SETUP)" = 0 ] || sh tools/setup.sh
 
+# GCC reads the large headers of a folder once, which is half of the time.
+precompiled = $(if $(filter release,$(config)),$(if $(IS_GCC),$(B)/$(1)/precompiled.h.gch))
+IS_GCC := $(shell $(CXX) --version | grep -o 'Free Software')
+include_precompiled = $(patsubst %.gch,-include %,$(call precompiled,$(1)))
+define precompile
+	@mkdir -p $(@D)
+	$(call say,$@)
+	$(Q)printf '#include <%s>\n' $(2) >$(@:.gch=)
+	$(Q)$(CPP) $(1) -x c++-header $(@:.gch=) -o $@
+endef
+
 # Libraries ------------------------------------------------------------------------------------------------
 
 $(B)/libhair.a: $(LIB)
@@ -194,7 +205,9 @@ $(B)/tools/view/%.cpp.o: tools/view/%.cpp
 	@mkdir -p $(@D)
 	@pkg-config --exists sdl2 imgui || { echo "hair-view needs libsdl2-dev and libimgui-dev; VIEW=0 leaves it out."; exit 1; }
 	$(call say,$@)
-	$(Q)$(CPP) -Wshadow $(VIEW_CFLAGS) $(TOOL_CFLAGS) -c $< -o $@
+	$(Q)$(CPP) -Wshadow $(VIEW_CFLAGS) $(TOOL_CFLAGS) $(call include_precompiled,tools/view) -c $< -o $@
+$(call objects,tools/view/*.cpp): $(call precompiled,tools/view)
+$(B)/tools/view/precompiled.h.gch: ; $(call precompile,-Wshadow $(VIEW_CFLAGS) $(TOOL_CFLAGS),algorithm deque string vector imgui.h SDL.h)
 $(B)/tools/examples/%.c.o: tools/examples/%.c
 	@mkdir -p $(@D)
 	$(call say,$@)
@@ -207,10 +220,11 @@ $(B)/tests/%.c.o: tests/%.c
 	@mkdir -p $(@D)
 	$(call say,$@)
 	$(Q)$(C) -Wno-conversion -DHAIR_BUILD_DIR='"$(B)"' -DHAIR_BULLET=$(BULLET) -c $< -o $@
-$(B)/tests/reference/%.cpp.o: tests/reference/%.cpp
+$(B)/tests/reference/%.cpp.o: tests/reference/%.cpp $(call precompiled,tests/reference)
 	@mkdir -p $(@D)
 	$(call say,$@)
-	$(Q)$(CPP) -O2 $(EIGEN) -c $< -o $@
+	$(Q)$(CPP) -O2 $(EIGEN) $(call include_precompiled,tests/reference) -c $< -o $@
+$(B)/tests/reference/precompiled.h.gch: ; $(call precompile,-O2 $(EIGEN),Eigen/Dense algorithm cmath vector)
 $(B)/lib/bullet/%.cpp.o: lib/bullet/%.cpp
 	@mkdir -p $(@D)
 	$(call say,$@)
@@ -219,10 +233,12 @@ $(B)/lib/bullet/%.cpp.shared.o: lib/bullet/%.cpp
 	@mkdir -p $(@D)
 	$(call say,$@)
 	$(Q)$(CPP) -Wshadow -Wconversion $(BULLET_CFLAGS) -fPIC -DHAIR_BUILD_SHARED -c $< -o $@
-# Tools and tests have line numbers but no variables, because those take a third of the time to compile them.
+# Tools have line numbers but no variables, which take a third of the time to compile, and tests have neither.
 # Other configurations have all. Tests and the viewer are optimized less for the same reason.
-$(B)/tools/% $(B)/tests/%: private C += $(if $(filter release,$(config)),-g1)
-$(B)/tools/% $(B)/tests/%: private CPP += $(if $(filter release,$(config)),-g1)
+$(B)/tools/%: private C += $(if $(filter release,$(config)),-g1)
+$(B)/tools/%: private CPP += $(if $(filter release,$(config)),-g1)
+$(B)/tests/%: private C += $(if $(filter release,$(config)),-g0)
+$(B)/tests/%: private CPP += $(if $(filter release,$(config)),-g0)
 $(B)/tools/view/% $(B)/tests/%: private C += $(if $(filter release,$(config)),-O1)
 $(B)/tools/view/% $(B)/tests/%: private CPP += $(if $(filter release,$(config)),-O1)
 # Unrolled loops over small matrices prepare guides a ninth faster, with equal bits.
@@ -273,13 +289,16 @@ $(B)/examples/%: $(B)/tools/examples/%.c.o $(B)/libhair_egl.a $(B)/libhair.a
 	$(call say,$@)
 	$(Q)$(CC) $(opt.$(config)) $(LINK_FLAGS) $^ $(EXAMPLE_LIBS) -o $@
 
-# Archives, because few tests need the reference, whose debug information would make each program 40 MB larger.
+# Archives, because a program needs a part of them only.
+# Some hundred programs link the whole library. gold takes 0.06 s each without debug information, and the
+# default linker 0.3 s with it.
+TEST_LINK := $(if $(filter release,$(config)),-s $(if $(shell command -v ld.gold),-fuse-ld=gold))
 SUPPORT := $(B)/tests/libsupport.a $(B)/tests/libreference.a
 $(B)/tests/libsupport.a: $(call objects,tests/support/*.c tools/common/flip.c)
 $(B)/tests/libreference.a: $(REF)
 $(B)/tests/%_test: $(B)/tests/%_test.c.o $(SUPPORT) $(B)/libhair_egl.a $(B)/libhair.a
 	$(call say,$@)
-	$(Q)$(CXX) $(opt.$(config)) $^ $(TEST_LIBS) -o $@
+	$(Q)$(CXX) $(opt.$(config)) $(TEST_LINK) $^ $(TEST_LIBS) -o $@
 
 # This test contains an example with a window.
 $(B)/tests/golden/first_head_test.c.o: private C += $(patsubst -I%,-isystem %,$(call packages,--cflags,sdl2))
@@ -326,7 +345,7 @@ $(B)/tests/hosts/vulkan_test: $(B)/tests/hosts/vulkan_test.cpp.o | $(B)/examples
 
 $(B)/tests/unit/bullet_%_test: $(B)/tests/unit/bullet_%_test.cpp.o $(SUPPORT) $(B)/libhair_bullet.a $(B)/libhair_egl.a $(B)/libhair.a
 	$(call say,$@)
-	$(Q)$(CXX) $(opt.$(config)) $^ -lBulletDynamics $(BULLET_LIBS) $(TEST_LIBS) -o $@
+	$(Q)$(CXX) $(opt.$(config)) $(TEST_LINK) $^ -lBulletDynamics $(BULLET_LIBS) $(TEST_LIBS) -o $@
 
 # Run as many tests at once as there are cores, the longest first. tests/README.md has their times.
 LONG := bench rod_limits determinism soak threads rod_stress lod instance list character memory capture lengths occlusion golden capture_bullet \
