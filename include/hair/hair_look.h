@@ -78,7 +78,7 @@ typedef enum hair_self_shadow {
 typedef struct hair_look {
     hair_struct_header header;
 
-    /// Colours of strands. See hair_look_color().
+    /// Colours of strands. See hair_look_color() and hair_look.pigment.
     struct {
         /// Reflectance of dense hair at the root, linear rgb.
         float root[3]; ///< [0, 1]. Default (0.13, 0.055, 0.024).
@@ -234,6 +234,23 @@ typedef struct hair_look {
     /// changes the values above, not the way that they are drawn. HAIR_PRESET_WET makes hair also
     /// move like wet hair.
     float wetness; ///< [0, 1]. Default 0.
+
+    /// Colour of natural hair by its pigments, and dye. Light is absorbed by the melanin of the
+    /// fibre (d'Eon et al. 2011) and by the dye, so that dark hair stays dark under a light dye.
+    /// See hair_look_find_colors().
+    struct {
+        /// Blend weight of the colour of the pigments over color.root and color.tip.
+        float weight; ///< [0, 1]. Default 0.
+        /// Amount of eumelanin, which is black and brown: 0.1 is light blond, 0.3 is blond, 1.3 is
+        /// brown and 8 is black (Pharr et al. 2023).
+        float eumelanin; ///< [0, 20]. Default 1.3.
+        /// Amount of pheomelanin, which is red.
+        float pheomelanin; ///< [0, 20]. Default 0.2.
+        /// Fraction of the pigments, without dye, that sun and washing have left at the tip.
+        float tip_fraction; ///< [0, 1]. Default 0.7.
+        /// Reflectance of dense hair with the dye and without pigment, linear rgb. White is no dye.
+        float dye[3]; ///< [0, 1]. Default 1.
+    } pigment;
 } hair_look;
 HAIR_DESC(hair_look)
 
@@ -365,13 +382,25 @@ typedef enum hair_color {
     HAIR_COLOR_COUNT
 } hair_color;
 
-/// Set color.root, color.tip and color.spread of a look. Other members keep their values.
+/// Set color.root, color.tip and color.spread of a look, and pigment.weight to 0. Other members
+/// keep their values.
 ///
 /// @param look Look to change, from hair_look_default().
 /// @param color Colour below HAIR_COLOR_COUNT.
 /// Errors: HAIR_ERROR_ARGUMENT, HAIR_ERROR_VERSION. They are not logged.
 /// OpenGL: not used. Any thread.
 HAIR_API hair_result hair_look_color(hair_look* look, hair_color color);
+
+/// Compute the reflectance of dense dry hair at the root and at the tip, linear rgb. These are
+/// color.root and color.tip, blended with the colour of hair_look.pigment. The latter depends on
+/// shading.roughness around the fibre. Brows and short hair of an application can follow them.
+///
+/// @param look Look, from hair_look_default().
+/// @param root Receives the reflectance at the root.
+/// @param tip Receives the reflectance at the tip.
+/// Errors: HAIR_ERROR_ARGUMENT, HAIR_ERROR_VERSION. They are not logged.
+/// OpenGL: not used. Any thread.
+HAIR_API hair_result hair_look_find_colors(const hair_look* look, float root[3], float tip[3]);
 
 /// Return the name of a colour, such as "dark_brown", or NULL beyond the last.
 /// OpenGL: not used. Any thread.

@@ -37,10 +37,11 @@ void hair_tell_softened(hair_instance* hair)
              hair->label, now.guides, hair->sim.guides, hair->sim.substep, now.worst, (double)now.factor);
 }
 
-// Return a look with its wetness applied.
-static hair_look wetted(const hair_look* look)
+// Return a look with its pigment and its wetness applied.
+static hair_look resolved(const hair_look* look)
 {
     hair_look own = *look;
+    hair_look_apply_pigment(&own);
     hair_look_apply_wetness(&own);
     return own;
 }
@@ -57,7 +58,7 @@ hair_result hair_instance_create_rooms(hair_instance* hair, const hair_groom* gr
 {
     hair_context* context = hair->context;
     struct hair_gl* gl = &context->gl;
-    hair_look look = wetted(&hair->look);
+    hair_look look = resolved(&hair->look);
     hair_thread_mapping mapping = hair->creation.thread_mapping;
     sim->is_by_thread =
         mapping == HAIR_THREAD_MAPPING_AUTO ? gl->software : mapping == HAIR_THREAD_MAPPING_THREAD_PER_GUIDE;
@@ -189,7 +190,7 @@ hair_result hair_set_look(hair_instance* hair, const hair_look* look)
     hair_look own;
     HAIR_TRY(HAIR_COPY_IN(&hair->context->host, hair_look, look, &own));
     hair->look = own;
-    own = wetted(&own);
+    own = resolved(&own);
     if (memcmp(&own, &hair->geometry.look, sizeof own) != 0) hair_draw_forget_vertices(&hair->renderer);
     hair_geometry_set_look(&hair->geometry, &own);
     return HAIR_OK;

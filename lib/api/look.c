@@ -221,7 +221,20 @@ hair_result hair_look_color(hair_look* look, hair_color color)
     memcpy(own.color.root, colors[color].root, sizeof own.color.root);
     memcpy(own.color.tip, colors[color].tip, sizeof own.color.tip);
     own.color.spread = colors[color].spread;
+    own.pigment.weight = 0;
     return HAIR_COPY_OUT(&silent, hair_look, &own, look);
+}
+
+hair_result hair_look_find_colors(const hair_look* look, float root[3], float tip[3])
+{
+    if (!look || !root || !tip) return HAIR_ERROR_ARGUMENT;
+    const hair_host silent = {0};
+    hair_look own;
+    HAIR_TRY(HAIR_COPY_IN(&silent, hair_look, look, &own));
+    hair_look_apply_pigment(&own);
+    memcpy(root, own.color.root, sizeof own.color.root);
+    memcpy(tip, own.color.tip, sizeof own.color.tip);
+    return HAIR_OK;
 }
 
 // Curls from an example --------------------------------------------------------------------------

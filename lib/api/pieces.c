@@ -255,6 +255,7 @@ static hair_look look_of(const struct hair_piece_source* source, const struct ar
     look.color.tint_red = curve_from(&look.color.tint_red, start, 1);
     look.color.tint_green = curve_from(&look.color.tint_green, start, 1);
     look.color.tint_blue = curve_from(&look.color.tint_blue, start, 1);
+    hair_look_apply_pigment(&look);
     for (int c = 0; c < 3; ++c) look.color.root[c] += start * (look.color.tip[c] - look.color.root[c]);
     if (start > look.color.root_darkening_length) look.color.root_darkening = 0;
     return look;

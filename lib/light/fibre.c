@@ -20,6 +20,12 @@ void hair_fibre_variances(float roughness, float out[3])
     out[2] = 4 * out[0];
 }
 
+float hair_fibre_darkening(float roughness)
+{
+    float b = roughness;
+    return 5.969f + b * (-0.215f + b * (2.532f + b * (-10.73f + b * (5.574f + 0.245f * b))));
+}
+
 float hair_fibre_scale(float roughness)
 {
     return 0.6266571f * (0.265f * roughness + 1.194f * roughness * roughness + 5.372f * powf(roughness, 22));

@@ -35,6 +35,10 @@ void hair_fibre_fill(const struct hair_fibre* fibre, hair_fibre_table table);
 // 2016, equation 7).
 void hair_fibre_variances(float roughness, float out[3]);
 
+// Return d, by which dense hair of the absorption mu per radius has the reflectance
+// exp(-d * sqrt(mu)), for the roughness around the axis (Chiang et al. 2016, equation 9).
+float hair_fibre_darkening(float roughness);
+
 // Return the scale of the logistic distribution around the axis (Chiang et al. 2016, equation 8).
 float hair_fibre_scale(float roughness);
 

@@ -46,13 +46,11 @@ void hair_lighting_destroy(struct hair_lighting* lighting)
     hair_gl_free_array(lighting->gl, &lighting->groom_color, &lighting->groom_color_texture);
 }
 
-// Write the parameters of fibre shading. The squared logarithm of a reflectance times 1 / d^2 is
-// the absorption, with d from Chiang et al. 2016, equation 9.
+// Write the parameters of fibre shading.
 static void write_fibre(const hair_look* look, hair_vec4* out)
 {
-    float variance[3], b = look->shading.roughness[1];
+    float variance[3], d = hair_fibre_darkening(look->shading.roughness[1]);
     hair_fibre_variances(look->shading.roughness[0], variance);
-    float d = 5.969f + b * (-0.215f + b * (2.532f + b * (-10.73f + b * (5.574f + 0.245f * b))));
     *out = (hair_vec4){variance[0], 1 / (d * d), look->shading.cuticle_tilt, look->shading.scattering};
 }
 

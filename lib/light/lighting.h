@@ -100,6 +100,9 @@ void hair_lighting_free_self_shadow(struct hair_lighting* lighting);
 
 // Functions of strand_color.c.
 
+// Replace color.root and color.tip by what they are with the pigment of the look. Wetness comes
+// after it.
+void hair_look_apply_pigment(hair_look* look);
 // Apply the wetness of a look to its other settings.
 void hair_look_apply_wetness(hair_look* look);
 // Write the colours of strands.

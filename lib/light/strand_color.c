@@ -1,4 +1,5 @@
-// strand_color.c - colours of strands for shaders, and the effect of water on a look.
+// strand_color.c - colours of strands for shaders, and the effect of pigment and water on a look.
+#include "lib/light/fibre.h"
 #include "lib/light/lighting.h"
 
 #define WET_POWER(wet) (1 + 0.7f * (wet)) // Exponent that darkens colours.
@@ -25,6 +26,28 @@ void hair_look_write_tint(const hair_look* look, struct hair_tint* out)
     out->sparkle = look->shading.sparkle;
     out->groom_color = look->color.groom_colors;
     out->groom_color_power = WET_POWER(look->wetness);
+}
+
+// Blend a colour with that of dense hair with `left` of the pigment, and all of the dye.
+static void blend_pigment(const hair_look* look, float left, float color[3])
+{
+    // Absorption per radius and unit of pigment, red to blue (d'Eon et al. 2011).
+    static const float eumelanin[3] = {0.419f, 0.697f, 1.37f}, pheomelanin[3] = {0.187f, 0.4f, 1.05f};
+    float d = hair_fibre_darkening(look->shading.roughness[1]);
+    for (int k = 0; k < 3; ++k) {
+        float dye = logf(fmaxf(look->pigment.dye[k], 0.001f)) / d;
+        float melanin = look->pigment.eumelanin * eumelanin[k] + look->pigment.pheomelanin * pheomelanin[k];
+        float own = expf(-d * sqrtf(left * melanin + dye * dye));
+        color[k] += look->pigment.weight * (own - color[k]);
+    }
+}
+
+void hair_look_apply_pigment(hair_look* look)
+{
+    if (!(look->pigment.weight > 0)) return;
+    blend_pigment(look, 1, look->color.root);
+    blend_pigment(look, look->pigment.tip_fraction, look->color.tip);
+    look->pigment.weight = 0;
 }
 
 // Darken a colour. A film of water reflects light back into the fibre, which absorbs it more often.

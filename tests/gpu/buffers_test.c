@@ -250,11 +250,13 @@ static void colors_are_those_of_the_look(void** state)
     look.color.spread = look.color.hue_spread = look.color.streaks = 0;
     look.color.groom_colors = 0;
     struct hair_test_scene scene = hair_test_scene_of(*state, NULL, &look);
-    for (int change = 0; change < 2; ++change) {
-        if (change) {
-            look.color.root[1] = 0.7f, look.color.tip[2] = 0.9f;
-            hair_test_ok(scene.test, hair_set_look(scene.hair, &look));
-        }
+    for (int change = 0; change < 3; ++change) {
+        if (change == 1) look.color.root[1] = 0.7f, look.color.tip[2] = 0.9f;
+        if (change == 2) look.pigment.weight = 0.8f, look.pigment.dye[2] = 0.5f;
+        float root[3], tip[3];
+        hair_test_ok(scene.test, hair_set_look(scene.hair, &look));
+        hair_test_ok(scene.test, hair_look_find_colors(&look, root, tip));
+        assert_true((memcmp(tip, look.color.tip, sizeof tip) != 0) == (change == 2));
         hair_buffers got = hair_test_get_buffers(&scene, HAIR_READ_FOLLOWERS, HAIR_ATTRIBUTE_COLOR);
         uint16_t* halves = malloc(8 * (size_t)got.color.count);
         assert_int_equal(got.color.format, GL_RGBA16F);
@@ -263,8 +265,7 @@ static void colors_are_those_of_the_look(void** state)
             float t = (float)(i % 9) / 8;
             for (uint32_t k = 0; k < 3; ++k)
                 hair_test_near("colour", i, half_of(halves[4 * i + k]),
-                               (double)(look.color.root[k] + t * (look.color.tip[k] - look.color.root[k])),
-                               1e-3);
+                               (double)(root[k] + t * (tip[k] - root[k])), 1e-3);
             assert_true(half_of(halves[4 * i + 3]) == 1);
         }
         free(halves);

@@ -83,6 +83,72 @@ static void light_colors_are_those_of_natural_hair(void** state)
     }
 }
 
+// Compute the reflectance of dense hair of an absorption per radius (Chiang et al. 2016, eq. 9).
+static double find_reflectance(double absorption, double b)
+{
+    double d = 5.969 - 0.215 * b + 2.532 * b * b - 10.73 * pow(b, 3) + 5.574 * pow(b, 4) + 0.245 * pow(b, 5);
+    return exp(-d * sqrt(absorption));
+}
+
+static void pigment_and_dye_absorb_together(void** state)
+{
+    (void)state;
+    static const double eumelanin[3] = {0.419, 0.697, 1.37}, pheomelanin[3] = {0.187, 0.4, 1.05};
+    hair_look look = hair_look_default();
+    look.pigment.weight = 0.75f, look.pigment.eumelanin = 0.3f, look.pigment.pheomelanin = 0.6f;
+    look.pigment.tip_fraction = 0.25f, look.pigment.dye[1] = 0.4f, look.pigment.dye[2] = 0;
+    look.shading.roughness[1] = 0.55f;
+    float root[3], tip[3];
+    assert_int_equal(hair_look_find_colors(&look, root, tip), HAIR_OK);
+    for (int k = 0; k < 3; ++k) {
+        double melanin = 0.3 * eumelanin[k] + 0.6 * pheomelanin[k], dye = k == 0 ? 1 : k == 1 ? 0.4 : 0.001;
+        double d = -log(find_reflectance(1, 0.55)), dyed = pow(log(dye) / d, 2);
+        double at_root = find_reflectance(melanin + dyed, 0.55),
+               at_tip = find_reflectance(0.25 * melanin + dyed, 0.55);
+        hair_test_near("root", (size_t)k, root[k], 0.25 * look.color.root[k] + 0.75 * at_root, 1e-6);
+        hair_test_near("tip", (size_t)k, tip[k], 0.25 * look.color.tip[k] + 0.75 * at_tip, 1e-6);
+    }
+    assert_int_equal(hair_look_color(&look, HAIR_COLOR_BLOND), HAIR_OK); // A preset has no pigment.
+    assert_int_equal(hair_look_find_colors(&look, root, tip), HAIR_OK);
+    assert_memory_equal(root, look.color.root, sizeof root);
+    assert_memory_equal(tip, look.color.tip, sizeof tip);
+    assert_int_equal(hair_look_find_colors(NULL, root, tip), HAIR_ERROR_ARGUMENT);
+    assert_int_equal(hair_look_find_colors(&look, NULL, tip), HAIR_ERROR_ARGUMENT);
+    look.pigment.dye[0] = 1.5f;
+    assert_int_equal(hair_look_find_colors(&look, root, tip), HAIR_ERROR_ARGUMENT);
+}
+
+// Amounts of pigment that Pharr et al. 2023 name black, brown and blond lie between the lightness
+// of the presets.
+static void pigment_goes_from_blond_to_black(void** state)
+{
+    (void)state;
+    static const float amounts[] = {0.1f, 0.3f, 1.3f, 8};
+    double last = 100, hue_of[2];
+    for (size_t i = 0; i < sizeof amounts / sizeof *amounts; ++i) {
+        double lightness, chroma, hue;
+        float root[3], tip[3];
+        hair_look look = hair_look_default();
+        look.pigment.weight = 1, look.pigment.eumelanin = amounts[i], look.pigment.pheomelanin = 0;
+        assert_int_equal(hair_look_find_colors(&look, root, tip), HAIR_OK);
+        find_lab(root, &lightness, &chroma, &hue);
+        assert_true(lightness < last - 8 && root[0] > root[1] && root[1] > root[2]);
+        for (int k = 0; k < 3; ++k) assert_true(tip[k] > root[k]);
+        last = lightness;
+    }
+    assert_true(last < 12);
+    for (int red = 0; red < 2; ++red) { // Pheomelanin absorbs more of the blue, and makes hair red.
+        double lightness, chroma;
+        float root[3], tip[3];
+        hair_look look = hair_look_default();
+        look.pigment.weight = 1, look.pigment.eumelanin = red ? 0.1f : 0.8f;
+        look.pigment.pheomelanin = red ? 1.2f : 0;
+        assert_int_equal(hair_look_find_colors(&look, root, tip), HAIR_OK);
+        find_lab(root, &lightness, &chroma, &hue_of[red]);
+    }
+    assert_true(hue_of[1] < hue_of[0] + 20 && hue_of[1] > 30);
+}
+
 static void presets_have_distinct_names(void** state)
 {
     (void)state;
@@ -237,6 +303,8 @@ int main(void)
         cmocka_unit_test(first_presets_are_the_defaults),
         cmocka_unit_test(shape_and_color_presets_are_independent),
         cmocka_unit_test(light_colors_are_those_of_natural_hair),
+        cmocka_unit_test(pigment_and_dye_absorb_together),
+        cmocka_unit_test(pigment_goes_from_blond_to_black),
         cmocka_unit_test(presets_have_distinct_names),
         cmocka_unit_test(fit_curl_recognizes_a_helix),
         cmocka_unit_test(fit_curl_refuses_invalid_examples),

@@ -129,7 +129,21 @@ ENUM(hair_look, followers.collision, HAIR_FOLLOWER_COLLISION_PUSH_OUT,
 #define GROUP ""
 FLOAT(hair_look, wetness, 0, 0, 1, 0, 1, LINEAR, "",
       "Wetness, which darkens and smooths hair, draws strands together and flattens strays.")
+#undef GROUP
+#define GROUP "pigment"
+FLOAT(hair_look, pigment.weight, 0, 0, 1, 0, 1, LINEAR, "",
+      "Blend weight of the colour of the pigments over color.root and color.tip.")
+FLOAT(hair_look, pigment.eumelanin, 1.3, 0, 20, 0.05, 10, LOG, "",
+      "Amount of eumelanin, which is black and brown.")
+FLOAT(hair_look, pigment.pheomelanin, 0.2, 0, 20, 0, 5, LINEAR, "",
+      "Amount of pheomelanin, which is red.")
+FLOAT(hair_look, pigment.tip_fraction, 0.7, 0, 1, 0, 1, LINEAR, "",
+      "Fraction of the pigments, without dye, that sun and washing have left at the tip.")
+COLOR(hair_look, pigment.dye, 1, 1, 1, 0, 1, 0, 1, "",
+      "Reflectance of dense hair with the dye and without pigment, linear rgb.")
 END
+#undef GROUP
+#define GROUP ""
 BEGIN(hair_group_look)
 FLOAT(hair_group_look, radius, 1, 0, 4, 0, 4, LINEAR, "", "Multiple of the radius of the strands.")
 #undef GROUP
