@@ -117,7 +117,9 @@ static int make_opengl(struct capture* capture)
     desc.host = &capture->host;
     desc.get_proc = hair_egl_get_proc;
     desc.timings = capture->options.stats ? 1 : 0;
-    return hair_exit_for(hair_context_create(&desc, &capture->context));
+    int code = hair_exit_for(hair_context_create(&desc, &capture->context));
+    capture->colliders.context = capture->context;
+    return code;
 }
 
 static int make_render(struct capture* capture)
@@ -244,6 +246,7 @@ static int show(struct capture* capture, uint32_t frame)
         return hair_capture_outputs_dump(&capture->outputs, capture->hair);
     if (!pose_at(capture, time_of(capture, frame), transform)) return HAIR_EXIT_INPUT;
     if (capture->character) move_picture(capture, time_of(capture, frame));
+    hair_render_set_breath(capture->render, hair_head_rig_breath(scene, time_of(capture, frame)));
     int code = hair_render_frame(capture->render, scene, transform, capture->reach, capture->hair, &image);
     code = exit_for_settings(capture, code);
     if (code) return code;

@@ -17,6 +17,7 @@
 #include "tools/common/head_collision.c"
 #include "tools/common/head_eyes.c"
 #include "tools/common/head_parts.c"
+#include "tools/common/head_pose.c"
 #include "tools/common/head_subdivide.c"
 
 static hair_asset* make_scalp(hair_asset_info* info)
@@ -184,57 +185,122 @@ static void colliders_fill_the_scalp_from_inside(void** state)
     hair_asset_destroy(asset);
 }
 
-// Check that the collision meshes have the drawn skin and garment as their surface, to a millimetre
-// on average. Lids, lips and nostrils are finer than the voxels.
-static void meshes_have_the_drawn_surface(void** state)
+// Check the distances of the drawn vertices of a part to the surface of a collision mesh.
+static void check_surface(const hair_collision_mesh* mesh, const struct cut* cut,
+                          const struct hair_head_pose* pose, double voxel)
+{
+    hair_collider collider = hair_collider_default();
+    collider.shape = HAIR_SHAPE_MESH;
+    collider.mesh = mesh;
+    double sum = 0, furthest = 0;
+    uint32_t count = 0;
+    struct head_surface part = {0};
+    assert_int_equal(head_load_part(cut->part, &part), 0);
+    for (uint32_t k = 0; k < part.vertex_count; ++k) {
+        point p = point_of(part.vertices[k]);
+        float moved[3];
+        if (p.y < cut->lowest + 0.01f || p.y > cut->highest) continue;
+        if (cut->part == HEAD_SKIN) p = head_on_skull(p);
+        const float rest[3] = {p.x, p.y, p.z};
+        if (cut->is_inside_collar && !is_inside_collar(rest)) continue;
+        hair_head_pose_move(pose, rest, moved);
+        const double at[3] = {(double)moved[0], (double)moved[1], (double)moved[2]};
+        double distance = fabs(hair_distance_to_collider(&collider, at, NULL));
+        furthest = fmax(furthest, distance);
+        sum += distance;
+        ++count;
+    }
+    print_message("    %u vertices, off by %.2f mm on average, by %.2f mm at most\n", count,
+                  1e3 * sum / count, 1e3 * furthest);
+    assert_true(count > 200);
+    assert_true(sum / count < 1e-3 && furthest < voxel);
+    head_surface_free(&part);
+}
+
+// Return a head that is turned and nods, about the first joint of the neck.
+static struct hair_head_pose turned(float turn, float breath)
+{
+    float c = cosf(turn), s = sinf(turn);
+    const float transform[16] = {c, 0, -s, 0, 0, 1, 0, 0, s, 0, c, 0, 0, 0, 0, 1};
+    return hair_head_pose_at(transform, breath, false);
+}
+
+static void check_closed(const hair_collision_mesh* mesh)
+{
+    hair_collision_mesh_info info = hair_collision_mesh_info_default();
+    assert_int_equal(hair_collision_mesh_describe(mesh, &info), HAIR_OK);
+    assert_true(info.is_closed);
+    assert_int_equal(info.unused, 0);
+}
+
+// Check that surfaces to collide with are those of the drawn skin and garment, to a millimetre on
+// average. Lids, lips and nostrils are finer than the voxels.
+static void surfaces_are_those_that_are_drawn(void** state)
 {
     struct hair_test_host* host = *state;
-    hair_collision_mesh* made[HEAD_MESHES];
-    assert_int_equal(head_collision_meshes_create(&host->host, made), 0);
-    for (int i = 0; i < HEAD_MESHES; ++i) {
-        hair_collision_mesh_info info = hair_collision_mesh_info_default();
-        assert_int_equal(hair_collision_mesh_describe(made[i], &info), HAIR_OK);
-        assert_true(info.is_closed);
-        assert_int_equal(info.unused, 0);
-        hair_collider collider = hair_collider_default();
-        collider.shape = HAIR_SHAPE_MESH;
-        collider.mesh = made[i];
-        double sum = 0, furthest = 0;
-        uint32_t count = 0;
-        struct head_surface part = {0};
-        assert_int_equal(head_load_part(cuts[i].part, &part), 0);
-        for (uint32_t k = 0; k < part.vertex_count; ++k) {
-            point p = point_of(part.vertices[k]);
-            if (p.y < cuts[i].lowest + 0.01f) continue;
-            if (cuts[i].part == HEAD_SKIN) p = head_on_skull(p);
-            const double at[3] = {(double)p.x, (double)p.y, (double)p.z};
-            double distance = fabs(hair_distance_to_collider(&collider, at, NULL));
-            furthest = fmax(furthest, distance);
-            sum += distance;
-            ++count;
-        }
-        print_message("    %u vertices, off by %.2f mm on average, by %.2f mm at most\n", count,
-                      1e3 * sum / count, 1e3 * furthest);
-        assert_true(count > 500);
-        assert_true(sum / count < 1e-3 && furthest < (double)cuts[i].voxel);
-        head_surface_free(&part);
-        hair_collision_mesh_destroy(made[i]);
+    hair_collision_mesh* made;
+    struct hair_head_pose rest = turned(0, 0);
+    assert_int_equal(head_collision_mesh_create(&host->host, &made), 0);
+    check_closed(made);
+    check_surface(made, &head_cut, &rest, (double)VOXEL);
+    hair_collision_mesh_destroy(made);
+
+    struct head_solid body;
+    assert_int_equal(head_body_create(&body), 0);
+    float* moved = malloc((size_t)body.vertex_count * 3 * sizeof *moved);
+    for (int turn = 0; turn < 2; ++turn) {
+        struct hair_head_pose pose = turned(0.6f * (float)turn, 0.01f * (float)turn);
+        for (size_t i = 0; i < body.vertex_count; ++i)
+            hair_head_pose_move(&pose, body.positions + 3 * i, moved + 3 * i);
+        hair_collision_mesh_desc desc = hair_collision_mesh_desc_default();
+        desc.host = &host->host;
+        desc.positions = moved;
+        desc.triangles = body.triangles;
+        desc.vertex_count = body.vertex_count;
+        desc.triangle_count = body.triangle_count;
+        desc.voxel_size = 0.008f;
+        assert_int_equal(hair_collision_mesh_create(&desc, &made), HAIR_OK);
+        check_closed(made);
+        for (size_t i = 0; i < sizeof body_cuts / sizeof *body_cuts; ++i)
+            check_surface(made, &body_cuts[i], &pose, (double)desc.voxel_size);
+        hair_collision_mesh_destroy(made);
     }
+    free(moved);
+    head_solid_free(&body);
+}
+
+static void breath_widens_the_chest_only(void** state)
+{
+    (void)state;
+    struct hair_head_pose pose = turned(0.5f, 0.008f), still = turned(0.5f, 0);
+    static const float rest[][3] = {
+        {0, 1.25f, 0.095f}, {0.1f, 1.28f, -0.03f}, {0, 1.45f, 0.02f}, {0, 1.6f, 0.1f}};
+    static const float move[][3] = {{0, 0.002f, 0.008f}, {0.0016f, 0.002f, 0}, {0, 0, 0}, {0, 0, 0}};
+    for (size_t i = 0; i < sizeof rest / sizeof *rest; ++i) {
+        float breathing[3], held[3];
+        hair_head_pose_move(&pose, rest[i], breathing);
+        hair_head_pose_move(&still, rest[i], held);
+        for (int k = 0; k < 3; ++k) assert_float_equal(breathing[k] - held[k], move[i][k], 1e-6);
+    }
+    struct hair_head_pose whole = hair_head_pose_at(pose.transform, 0.008f, true);
+    float moved[3];
+    hair_head_pose_move(&whole, rest[0], moved);
+    assert_float_equal(moved[0], sinf(0.5f) * rest[0][2], 1e-6);
+    assert_float_equal(moved[1], rest[0][1], 1e-6);
 }
 
 static void mesh_without_memory_is_not_made(void** state)
 {
     struct hair_test_host* host = *state;
-    hair_collision_mesh* made[HEAD_MESHES] = {0};
-    assert_int_equal(head_collision_meshes_create(&host->host, made), 0);
-    for (int i = 0; i < HEAD_MESHES; ++i) hair_collision_mesh_destroy(made[i]);
+    hair_collision_mesh* made;
+    assert_int_equal(head_collision_mesh_create(&host->host, &made), 0);
+    hair_collision_mesh_destroy(made);
     uint32_t allocations = host->allocations;
-    memset(made, 0, sizeof made);
+    made = NULL;
     for (uint32_t refuse = 1; refuse <= allocations; ++refuse) {
         host->refuse = host->allocations + refuse;
-        assert_int_equal(head_collision_meshes_create(&host->host, made), -1);
-        assert_null(made[0]);
-        assert_null(made[1]);
+        assert_int_equal(head_collision_mesh_create(&host->host, &made), -1);
+        assert_null(made);
     }
 }
 
@@ -257,7 +323,8 @@ int main(void)
         cmocka_unit_test(the_mesh_is_sound_and_faces_outwards),
         cmocka_unit_test(a_cube_is_subdivided_by_the_rules),
         cmocka_unit_test(colliders_fill_the_scalp_from_inside),
-        HAIR_TEST_WITH_HOST(meshes_have_the_drawn_surface, &host),
+        HAIR_TEST_WITH_HOST(surfaces_are_those_that_are_drawn, &host),
+        cmocka_unit_test(breath_widens_the_chest_only),
         HAIR_TEST_WITH_HOST(mesh_without_memory_is_not_made, &host),
         cmocka_unit_test(colliders_beyond_the_capacity_are_only_counted),
     };

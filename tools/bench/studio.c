@@ -3,6 +3,7 @@
 
 #include "tools/bench/extent.h"
 #include "tools/common/camera.h"
+#include "tools/common/render_mesh.h"
 #include "tools/common/file.h"
 #include "tools/common/shaders.h"
 #include "tools/common/stats.h"
@@ -212,10 +213,10 @@ static void draw_head(const struct bench_studio* studio, unsigned program,
 {
     bool whole = studio->scene.subject == HAIR_SUBJECT_FUR;
     if (!shows_head(studio)) return;
-    glProgramUniformMatrix4fv(program, HAIR_AT_HEAD, 1, GL_FALSE, studio->transform);
+    struct hair_head_pose pose = hair_head_pose_at(studio->transform, 0, whole);
+    hair_render_mesh_set_pose(program, &pose);
     glProgramUniformMatrix4fv(program, HAIR_AT_VIEW, 1, GL_FALSE, matrices->view);
     glProgramUniformMatrix4fv(program, HAIR_AT_PROJECTION, 1, GL_FALSE, matrices->projection);
-    glProgramUniform2f(program, HAIR_AT_BEND, whole ? -1e9f : HAIR_HEAD_RIG_MOVES, HAIR_HEAD_RIG_RESTS);
     glUseProgram(program);
     glBindVertexArray(studio->arrays[0]);
     glEnable(GL_CULL_FACE);

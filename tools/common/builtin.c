@@ -42,8 +42,8 @@
            "'strays.fraction': 0.15, 'strays.distance': '0,0.03,0.05,0.07,0.08,0.08,0.08,0.08'}"
 
 const struct hair_builtin hair_builtin_scenes[] = {
-    {"demo", "{'style': 'long', 'motion': 'demo', 'settle': 0.5, 'frames': 120, 'picture': 30, " CAMERA
-             ", " STUDIO "}"},
+    {"demo", "{'style': 'long', 'motion': 'demo', 'breath': 0.005, 'settle': 0.5, 'frames': 120, 'picture': "
+             "30, " CAMERA ", " STUDIO "}"},
     {"still", "{'style': 'long', 'motion': 'still', 'frames': 30, 'picture': 29, " CAMERA "}"},
     {"ponytail", "{'style': 'ponytail', 'motion': 'demo', 'settle': 0.5, 'frames': 120, 'picture': 45," BEHIND
                  ", " STUDIO "}"},

@@ -4,6 +4,8 @@
 
 #include <hair/hair.h>
 
+#include <stdbool.h>
+
 struct head_mesh {
     float* positions; // xyz per vertex, m, in the space of the built-in haircuts
     float* normals; // xyz per vertex, unit, outwards
@@ -23,17 +25,25 @@ void head_mesh_free(struct head_mesh* mesh);
 
 #define HEAD_KIND_HAIR 0.5f // Kind of brows, lashes and fine hairs, which have the colour of hair.
 #define HEAD_COLLIDERS 16
-#define HEAD_NECK 10 // index of the collider of the neck
 
 // Write the bust's colliders for hair_set_colliders(). No collider extends outside the scalp. Write
 // at most `capacity` colliders. Return the total count.
 uint32_t head_colliders(hair_collider* out, uint32_t capacity);
 
-#define HEAD_MESHES 2
-
-// Create the collision meshes of the head above the neck and of the garment, in the space of the
-// built-in haircuts. Return 0, or -1 after an error, which the host hears. Destroy the meshes with
+// Create the collision mesh of the rigid head above the neck, in the space of the built-in
+// haircuts. Return 0, or -1 after an error, which the host hears. Destroy the mesh with
 // hair_collision_mesh_destroy().
-int head_collision_meshes_create(const hair_host* host, hair_collision_mesh* out[HEAD_MESHES]);
+int head_collision_mesh_create(const hair_host* host, hair_collision_mesh** out);
+
+// Closed surfaces that may overlap.
+struct head_solid {
+    float* positions; // xyz per vertex, m, in the space of the built-in haircuts
+    uint32_t* triangles; // three indices each, counter-clockwise from outside
+    uint32_t vertex_count, triangle_count;
+};
+
+// Create the surface below the head: the neck and the garment. Return 0, or -1 if memory runs out.
+int head_body_create(struct head_solid* out);
+void head_solid_free(struct head_solid* solid);
 
 #endif

@@ -1,8 +1,9 @@
-// head_collision.c - Collision meshes of the bust: the drawn surface, cut and closed.
+// head_collision.c - Surfaces of the bust to collide with: the drawn ones, cut and closed.
 //
 // The capsules of head.c are for solvers without meshes. They leave gaps of centimetres under the
 // nose, the chin and the garment.
 #include "tools/common/head_parts.h"
+#include "tools/common/head_pose.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -12,11 +13,20 @@ typedef struct head_point point;
 
 #define NONE UINT32_MAX
 
-// Meshes without the part below a height, where other colliders begin or hair does not reach.
-static const struct {
+// Part of the bust that a surface takes. Faces that reach into it are whole, so that the surfaces
+// overlap.
+struct cut {
     enum head_part part;
-    float lowest, voxel; // m
-} cuts[HEAD_MESHES] = {{HEAD_SKIN, 1.47f, 0.005f}, {HEAD_CLOTH, 1.25f, 0.008f}};
+    float lowest, highest; // m
+    bool is_inside_collar; // leaves out what the garment covers
+};
+
+static const struct cut head_cut = {HEAD_SKIN, HAIR_HEAD_MOVES - 0.01f, INFINITY, false};
+// Hair reaches no farther down.
+static const struct cut body_cuts[] = {{HEAD_SKIN, 1.25f, HAIR_HEAD_MOVES + 0.01f, true},
+                                       {HEAD_CLOTH, 1.25f, INFINITY, false}};
+
+#define VOXEL 0.005f // m, of the head
 
 // A surface that is made closed.
 struct closed {
@@ -54,12 +64,30 @@ static int reserve(const struct head_surface* surface, struct closed* out)
     return out->positions && out->triangles && out->edges && out->next ? 0 : -1;
 }
 
-static void add_face(const uint32_t face[4], float lowest, struct closed* out)
+// Return whether a point of the skin is less than a centimetre under the collar, or not covered.
+// The collar is an upright elliptic cylinder, as in bust.py.
+static bool is_inside_collar(const float* p)
+{
+    float ring = hypotf(p[0] / 0.080f, (p[2] + 0.023f) / 0.067f);
+    return 0.07f * (ring - 1) < 0.01f || p[1] > 1.492f;
+}
+
+static bool reaches(const uint32_t* face, uint32_t corners, const struct cut* cut, const float* positions)
+{
+    float top = -INFINITY, bottom = INFINITY;
+    bool is_inside = !cut->is_inside_collar;
+    for (uint32_t k = 0; k < corners; ++k) {
+        const float* p = positions + 3 * (size_t)face[k];
+        top = fmaxf(top, p[1]), bottom = fminf(bottom, p[1]);
+        is_inside |= is_inside_collar(p);
+    }
+    return top >= cut->lowest && bottom <= cut->highest && is_inside;
+}
+
+static void add_face(const uint32_t face[4], const struct cut* cut, struct closed* out)
 {
     uint32_t corners = face[3] == HEAD_NO_CORNER ? 3 : 4;
-    float top = -INFINITY;
-    for (uint32_t k = 0; k < corners; ++k) top = fmaxf(top, out->positions[3 * face[k] + 1]);
-    if (top < lowest) return;
+    if (!reaches(face, corners, cut, out->positions)) return;
     for (uint32_t k = 0; k < corners; ++k) {
         uint32_t edge[2] = {face[k], face[(k + 1) % corners]};
         memcpy(out->edges[out->edge_count++], edge, sizeof edge);
@@ -99,53 +127,97 @@ static void put_cap(struct closed* closed, uint32_t first)
     for (int k = 0; k < 3; ++k) sum[k] /= (float)count;
 }
 
-static int close_surface(const struct head_surface* surface, enum head_part part, float lowest,
-                         struct closed* out)
+static int close_surface(const struct head_surface* surface, const struct cut* cut, struct closed* out)
 {
     if (reserve(surface, out)) return -1;
     out->vertex_count = surface->vertex_count;
     for (uint32_t i = 0; i < surface->vertex_count; ++i) {
         const float* v = surface->vertices[i];
         point p = {v[0], v[1], v[2]};
-        if (part == HEAD_SKIN) p = head_on_skull(p);
+        if (cut->part == HEAD_SKIN) p = head_on_skull(p);
         memcpy(out->positions + 3 * (size_t)i, &p, sizeof p);
     }
-    for (uint32_t i = 0; i < surface->face_count; ++i) add_face(surface->faces[i], lowest, out);
+    for (uint32_t i = 0; i < surface->face_count; ++i) add_face(surface->faces[i], cut, out);
     find_boundaries(out, surface->vertex_count);
     for (uint32_t i = 0; i < surface->vertex_count; ++i)
         if (out->next[i] != NONE) put_cap(out, i);
     return 0;
 }
 
-static int create(const hair_host* host, enum head_part part, float lowest, float voxel,
-                  hair_collision_mesh** out)
+// Append the triangles of a closed surface and the vertices that they use.
+static int append(const struct closed* closed, struct head_solid* out)
+{
+    uint32_t used = 0;
+    size_t vertices = out->vertex_count + closed->vertex_count,
+           triangles = out->triangle_count + closed->triangle_count;
+    float* positions = realloc(out->positions, vertices * 3 * sizeof *positions);
+    if (positions) out->positions = positions;
+    uint32_t* corners = realloc(out->triangles, triangles * 3 * sizeof *corners);
+    if (corners) out->triangles = corners;
+    uint32_t* index = malloc(closed->vertex_count * sizeof *index);
+    if (!positions || !corners || !index) {
+        free(index);
+        return -1;
+    }
+    for (uint32_t i = 0; i < closed->vertex_count; ++i) index[i] = NONE;
+    for (uint32_t i = 0; i < 3 * closed->triangle_count; ++i) {
+        uint32_t vertex = closed->triangles[0][i];
+        if (index[vertex] == NONE) {
+            index[vertex] = out->vertex_count + used;
+            memcpy(positions + 3 * (size_t)(out->vertex_count + used++),
+                   closed->positions + 3 * (size_t)vertex, 3 * sizeof *positions);
+        }
+        corners[3 * (size_t)out->triangle_count + i] = index[vertex];
+    }
+    out->vertex_count += used;
+    out->triangle_count += closed->triangle_count;
+    free(index);
+    return 0;
+}
+
+// Append a part of the bust, cut and closed.
+static int append_cut(const struct cut* cut, struct head_solid* out)
 {
     struct head_surface surface = {0};
     struct closed closed = {0};
-    hair_collision_mesh_desc desc = hair_collision_mesh_desc_default();
-    int failed = head_load_part(part, &surface) || close_surface(&surface, part, lowest, &closed);
-    if (!failed) {
-        desc.host = host;
-        desc.positions = closed.positions;
-        desc.triangles = closed.triangles[0];
-        desc.vertex_count = closed.vertex_count;
-        desc.triangle_count = closed.triangle_count;
-        desc.voxel_size = voxel;
-        failed = hair_collision_mesh_create(&desc, out) != HAIR_OK;
-    }
+    int failed =
+        head_load_part(cut->part, &surface) || close_surface(&surface, cut, &closed) || append(&closed, out);
     free_closed(&closed);
     head_surface_free(&surface);
     return failed ? -1 : 0;
 }
 
-int head_collision_meshes_create(const hair_host* host, hair_collision_mesh* out[HEAD_MESHES])
+int head_body_create(struct head_solid* out)
 {
-    hair_collision_mesh* made[HEAD_MESHES] = {0};
-    for (int i = 0; i < HEAD_MESHES; ++i)
-        if (create(host, cuts[i].part, cuts[i].lowest, cuts[i].voxel, &made[i])) {
-            while (i > 0) hair_collision_mesh_destroy(made[--i]);
-            return -1;
-        }
-    memcpy(out, made, sizeof made);
-    return 0;
+    int failed = 0;
+    *out = (struct head_solid){0};
+    for (size_t i = 0; i < sizeof body_cuts / sizeof *body_cuts; ++i)
+        failed = failed || append_cut(&body_cuts[i], out);
+    if (failed) head_solid_free(out);
+    return failed ? -1 : 0;
+}
+
+void head_solid_free(struct head_solid* solid)
+{
+    free(solid->triangles);
+    free(solid->positions);
+    *solid = (struct head_solid){0};
+}
+
+int head_collision_mesh_create(const hair_host* host, hair_collision_mesh** out)
+{
+    struct head_solid solid = {0};
+    hair_collision_mesh_desc desc = hair_collision_mesh_desc_default();
+    int failed = append_cut(&head_cut, &solid);
+    if (!failed) {
+        desc.host = host;
+        desc.positions = solid.positions;
+        desc.triangles = solid.triangles;
+        desc.vertex_count = solid.vertex_count;
+        desc.triangle_count = solid.triangle_count;
+        desc.voxel_size = VOXEL;
+        failed = hair_collision_mesh_create(&desc, out) != HAIR_OK;
+    }
+    head_solid_free(&solid);
+    return failed ? -1 : 0;
 }

@@ -8,6 +8,7 @@
 
 #define COLUMNS 96u
 #define ROWS 48u
+#define BREATH_TIME 4.0f // s, of a breath
 
 static void place(float radius, struct head_mesh* mesh)
 {
@@ -58,38 +59,32 @@ int hair_head_rig_ball(float radius, struct head_mesh* out)
 
 // Colliders ---------------------------------------------------------------------------------------
 
-// Return the weight of the head's motion at a height, by smoothstep as in the vertex shader of the
-// mesh.
-static float weight(float height)
+float hair_head_rig_breath(const struct hair_scene* scene, float time)
 {
-    float t = glm_clamp((height - HAIR_HEAD_RIG_RESTS) / (HAIR_HEAD_RIG_MOVES - HAIR_HEAD_RIG_RESTS), 0, 1);
-    return t * t * (3 - 2 * t);
+    return scene->breath * 0.5f * (1 - cosf(2 * GLM_PIf * time / BREATH_TIME));
 }
 
-// Place the collision meshes of the head and of the garment, which stays.
-static void place_meshes(hair_collision_mesh* const* meshes, const float transform[16],
-                         hair_collider out[HEAD_MESHES])
+static uint32_t place_meshes(const struct hair_head_meshes* meshes, const float transform[16],
+                             hair_collider out[2])
 {
-    static const float weights[HEAD_MESHES] = {1, 0};
-    for (uint32_t i = 0; i < HEAD_MESHES; ++i) {
-        out[i] = hair_collider_default();
-        out[i].shape = HAIR_SHAPE_MESH;
-        out[i].mesh = meshes[i];
-        hair_collider_carry(transform, weights[i], &out[i]);
-    }
+    out[0] = out[1] = hair_collider_default();
+    out[0].shape = out[1].shape = HAIR_SHAPE_MESH;
+    out[0].mesh = meshes->head, out[1].mesh = meshes->body;
+    hair_collider_carry(transform, 1, &out[0]);
+    return 2;
 }
 
-static uint32_t place_head(hair_collision_mesh* const* meshes, const float transform[16], hair_collider* out)
+static uint32_t place_head(const struct hair_head_meshes* meshes, const float transform[16],
+                           hair_collider* out)
 {
+    if (meshes) return place_meshes(meshes, transform, out);
     uint32_t count = head_colliders(out, HEAD_COLLIDERS);
-    for (uint32_t i = 0; i < count; ++i) hair_collider_carry(transform, weight(out[i].position[1]), &out[i]);
-    if (!meshes || !meshes[0]) return count;
-    out[0] = out[HEAD_NECK];
-    place_meshes(meshes, transform, out + 1);
-    return 1 + HEAD_MESHES;
+    for (uint32_t i = 0; i < count; ++i)
+        hair_collider_carry(transform, hair_head_pose_weight(out[i].position[1]), &out[i]);
+    return count;
 }
 
-uint32_t hair_head_rig_colliders(const struct hair_scene* scene, hair_collision_mesh* const* meshes,
+uint32_t hair_head_rig_colliders(const struct hair_scene* scene, const struct hair_head_meshes* meshes,
                                  float time, const float transform[16],
                                  hair_collider out[HAIR_HEAD_RIG_COLLIDERS])
 {

@@ -3,23 +3,28 @@
 #define HAIR_TOOLS_COMMON_HEAD_RIG_H
 
 #include "tools/common/head.h"
+#include "tools/common/head_pose.h"
 #include "tools/common/scene.h"
 
-// Heights in the built-in head's space, in m. The head moves above HAIR_HEAD_RIG_MOVES and rests
-// below HAIR_HEAD_RIG_RESTS. The neck between them bends.
-#define HAIR_HEAD_RIG_MOVES 1.525f
-#define HAIR_HEAD_RIG_RESTS 1.425f
+// Collision meshes of the built-in head. NULL selects the capsules of the bust.
+struct hair_head_meshes {
+    const hair_collision_mesh* head; // of head_collision_mesh_create()
+    const hair_collision_mesh* body; // of the neck and the garment, in the world
+};
 
-#define HAIR_HEAD_RIG_COLLIDERS (HEAD_COLLIDERS + HEAD_MESHES + 1 + HAIR_SCENE_COLLIDERS)
+#define HAIR_HEAD_RIG_COLLIDERS (HEAD_COLLIDERS + 2 + HAIR_SCENE_COLLIDERS)
 
 // Make the ball that fur grows on. Return 0, or -1 if memory runs out. Release the mesh with
 // head_mesh_free().
 int hair_head_rig_ball(float radius, struct head_mesh* out);
 
-// Compute the scene's colliders in the world at a time, in s, with the head at `transform`. The
-// collision meshes of head_collision_meshes_create() replace the capsules of the built-in head,
-// except for the neck, which bends. NULL selects the capsules. Return the number of colliders.
-uint32_t hair_head_rig_colliders(const struct hair_scene* scene, hair_collision_mesh* const* meshes,
+// Return how far breath moves the front of the chest forwards at a time, in s. The result is in m.
+float hair_head_rig_breath(const struct hair_scene* scene, float time);
+
+// Compute the scene's colliders in the world at a time, in s, with the head at `transform`. Meshes
+// replace the capsules of the built-in head. NULL selects the capsules. Return the number of
+// colliders.
+uint32_t hair_head_rig_colliders(const struct hair_scene* scene, const struct hair_head_meshes* meshes,
                                  float time, const float transform[16],
                                  hair_collider out[HAIR_HEAD_RIG_COLLIDERS]);
 

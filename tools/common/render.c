@@ -30,6 +30,7 @@ struct hair_render {
     struct hair_render_mesh mesh;
     hair_instance* const* more_hair;
     uint32_t more_count;
+    float breath; // of the bust, m
     uint32_t frames; // drawn so far
     float shift[2]; // of the picture to the left and up, pixels
 };
@@ -126,6 +127,11 @@ void hair_render_move_mesh(struct hair_render* render, const struct head_mesh* m
     hair_render_mesh_move(&render->mesh, mesh);
 }
 
+void hair_render_set_breath(struct hair_render* render, float breath)
+{
+    render->breath = breath;
+}
+
 void hair_render_set_more_hair(struct hair_render* render, hair_instance* const* hair, uint32_t count)
 {
     render->more_hair = hair;
@@ -161,7 +167,7 @@ static void draw_mesh(const struct hair_render* render, GLuint program, const st
     if (!shows_mesh(render, frame)) return;
     // Fine hairs are dots at four samples a pixel or fewer.
     bool has_fine = render->desc.samples * render->desc.supersample * render->desc.supersample > 4;
-    hair_render_mesh_draw(&render->mesh, program, frame->transform, matrices, has_fine);
+    hair_render_mesh_draw(&render->mesh, program, frame->transform, render->breath, matrices, has_fine);
 }
 
 // Draw one pass of the hair. Only the colour pass, seen from the camera, gets the lights' shadow
@@ -253,7 +259,9 @@ static void draw_skin(const struct hair_render* render, const struct frame* fram
     glProgramUniform3fv(program, HAIR_AT_EYE, 1, frame->scene->eye);
     glProgramUniform1i(program, HAIR_AT_TAPS, render->desc.supersample > 2 ? TAPS / 2 : TAPS);
     glProgramUniform3fv(program, HAIR_AT_AMBIENT, 1, view->ambient);
-    glProgramUniform3fv(program, HAIR_AT_HAIR, 1, frame->scene->settings.look.color.root);
+    float root[3], tip[3];
+    hair_look_find_colors(&frame->scene->settings.look, root, tip); // The settings are valid.
+    glProgramUniform3fv(program, HAIR_AT_HAIR, 1, root);
     hair_frame_lights_set(program, &frame->lights, render->map, render->shadow_sampler);
     draw_mesh(render, program, frame, &tile->camera);
     hair_frame_lights_unset(&frame->lights);

@@ -34,6 +34,10 @@ void hair_render_set_mesh(struct hair_render* render, const struct head_mesh* me
 // Move the vertices of the mesh, which has as many as before.
 void hair_render_move_mesh(struct hair_render* render, const struct head_mesh* mesh);
 
+// Move the chest of the built-in head by breath in all following pictures. See
+// hair_head_rig_breath().
+void hair_render_set_breath(struct hair_render* render, float breath);
+
 // Draw further hair in all following pictures, with the passes of the hair. The array must live as
 // long.
 void hair_render_set_more_hair(struct hair_render* render, hair_instance* const* hair, uint32_t count);

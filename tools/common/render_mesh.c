@@ -43,8 +43,7 @@ void hair_render_mesh_make(const struct head_mesh* mesh, bool whole, struct hair
     out->buffer[HAIR_MESH_SURFACE] = make_buffer(mesh->surface, bytes);
     size_t triangle = 3 * sizeof(uint32_t);
     out->buffer[HAIR_MESH_TRIANGLES] = make_buffer(mesh->triangles, mesh->triangle_count * triangle);
-    out->bend[0] = whole ? -1e9f : HAIR_HEAD_RIG_MOVES;
-    out->bend[1] = HAIR_HEAD_RIG_RESTS;
+    out->whole = whole;
     for (GLuint i = HAIR_MESH_POSITIONS; i <= HAIR_MESH_SURFACE; ++i) attach(out, i);
     glVertexArrayElementBuffer(out->vertex_array, out->buffer[HAIR_MESH_TRIANGLES]);
 }
@@ -56,14 +55,21 @@ void hair_render_mesh_move(const struct hair_render_mesh* mesh, const struct hea
     glNamedBufferSubData(mesh->buffer[HAIR_MESH_NORMALS], 0, bytes, to->normals);
 }
 
-void hair_render_mesh_draw(const struct hair_render_mesh* mesh, unsigned program, const float transform[16],
-                           const struct hair_matrices* matrices, bool has_fine)
+void hair_render_mesh_set_pose(unsigned program, const struct hair_head_pose* pose)
 {
+    glProgramUniformMatrix4fv(program, HAIR_AT_HEAD, 1, GL_FALSE, pose->transform);
+    glProgramUniform4fv(program, HAIR_AT_HEIGHTS, 1, pose->heights);
+    glProgramUniform4fv(program, HAIR_AT_BREATH, 1, pose->breath);
+}
+
+void hair_render_mesh_draw(const struct hair_render_mesh* mesh, unsigned program, const float transform[16],
+                           float breath, const struct hair_matrices* matrices, bool has_fine)
+{
+    struct hair_head_pose pose = hair_head_pose_at(transform, breath, mesh->whole);
     uint32_t indices = mesh->indices + (has_fine ? mesh->fine_indices : 0);
-    glProgramUniformMatrix4fv(program, HAIR_AT_HEAD, 1, GL_FALSE, transform);
+    hair_render_mesh_set_pose(program, &pose);
     glProgramUniformMatrix4fv(program, HAIR_AT_VIEW, 1, GL_FALSE, matrices->view);
     glProgramUniformMatrix4fv(program, HAIR_AT_PROJECTION, 1, GL_FALSE, matrices->projection);
-    glProgramUniform2fv(program, HAIR_AT_BEND, 1, mesh->bend);
     glUseProgram(program);
     glBindVertexArray(mesh->vertex_array);
     glEnable(GL_CULL_FACE);

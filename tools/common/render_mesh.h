@@ -20,7 +20,7 @@ struct hair_render_mesh {
     unsigned vertex_array, buffer[HAIR_MESH_BUFFERS];
     uint32_t indices; // without fine hairs
     uint32_t fine_indices; // those of fine hairs, which are the last ones
-    float bend[2];
+    bool whole; // The whole mesh moves with the head.
 };
 
 // Replace the mesh. With `whole`, the whole mesh moves with the head. Otherwise it bends at the
@@ -32,6 +32,9 @@ void hair_render_mesh_delete(struct hair_render_mesh* mesh);
 
 // Draw the mesh by a program of hair_mesh_vert, with or without brows, lashes and fine hairs.
 void hair_render_mesh_draw(const struct hair_render_mesh* mesh, unsigned program, const float transform[16],
-                           const struct hair_matrices* matrices, bool has_fine);
+                           float breath, const struct hair_matrices* matrices, bool has_fine);
+
+// Set the uniforms of hair_mesh_vert, except for the camera.
+void hair_render_mesh_set_pose(unsigned program, const struct hair_head_pose* pose);
 
 #endif

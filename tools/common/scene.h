@@ -44,6 +44,7 @@ struct hair_scene {
     float background[2][3]; // linear colours at the centre and at the corners
     float exposure;
     struct hair_motion motion;
+    float breath; // how far breath moves the front of the built-in head's chest forwards, m
     uint32_t collider_count;
     struct hair_scene_collider colliders[HAIR_SCENE_COLLIDERS];
     struct hair_bullet_list bullet;

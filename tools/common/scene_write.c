@@ -307,6 +307,7 @@ static json_t* scene_of(const char* tool, const struct hair_scene* scene, struct
     put_maps(root, &scene->maps);
     put_attributes(root, &scene->attributes);
     put_motion(tool, root, &scene->motion);
+    if (scene->breath > 0) json_object_set_new(root, "breath", json_real((double)scene->breath));
     if (scene->pivot_is_said) json_object_set_new(root, "pivot", numbers_of(scene->motion.pivot, 3));
     put_colliders(root, scene);
     put_lights(root, scene);

@@ -38,7 +38,8 @@ const char hair_mesh_vert[] = HEAD
     AT(HAIR_AT_HEAD) "mat4 head;\n"
     AT(HAIR_AT_VIEW) "mat4 view;\n"
     AT(HAIR_AT_PROJECTION) "mat4 clip;\n"
-    AT(HAIR_AT_BEND) "vec2 bend;\n" // Vertices above bend.x move, vertices below bend.y rest.
+    AT(HAIR_AT_HEIGHTS) "vec4 heights;\n" // See struct hair_head_pose.
+    AT(HAIR_AT_BREATH) "vec4 breath;\n"
     "layout(location = 0) in vec3 rest_position;\n"
     "layout(location = 1) in vec3 rest_normal;\n"
     "layout(location = 2) in vec3 paint;\n"
@@ -51,8 +52,11 @@ const char hair_mesh_vert[] = HEAD
     "void main()\n"
     "{\n"
     "    float y     = rest_position.y;\n"
-    "    float w     = y >= bend.x ? 1.0 : smoothstep(bend.y, bend.x, y);\n"
-    "    position    = mix(rest_position, (head * vec4(rest_position, 1.0)).xyz, w);\n"
+    "    float chest = 1.0 - smoothstep(heights.w, heights.z, y);\n"
+    "    vec3  wide  = vec3(breath.x * rest_position.x, breath.y, breath.z * (rest_position.z - breath.w));\n"
+    "    vec3  from  = rest_position + chest * wide;\n"
+    "    float w     = y >= heights.x ? 1.0 : smoothstep(heights.y, heights.x, y);\n"
+    "    position    = mix(from, (head * vec4(from, 1.0)).xyz, w);\n"
     "    normal      = mix(rest_normal, mat3(head) * rest_normal, w);\n"
     "    albedo      = paint;\n"
     "    surface     = rest_surface;\n"

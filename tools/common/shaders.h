@@ -6,9 +6,10 @@
 #define HAIR_AT_HEAD 0
 #define HAIR_AT_VIEW 1
 #define HAIR_AT_PROJECTION 2
-#define HAIR_AT_BEND 3
+#define HAIR_AT_HEIGHTS 3
 #define HAIR_AT_EYE 4
 #define HAIR_AT_LIGHTS 5 // number of lights
+#define HAIR_AT_BREATH 6
 #define HAIR_AT_AMBIENT 7
 #define HAIR_AT_TILE 10
 #define HAIR_AT_CENTRE 11

@@ -232,10 +232,9 @@ void view_reference_add(view_reference& reference, const view_session& session, 
     frame.dt = dt;
     frame.drag = hair_reference_guide_rod_drag(&scene.settings.physics, &wind);
     for (int i = 0; i < 3; ++i) frame.wind[i] = (double)wind.velocity[i];
-    // Meshes of Bullet objects may be gone when the thread reads the frame.
+    // Meshes of Bullet objects may be gone when the thread reads the frame, and bodies have moved.
     for (const hair_collider& collider : session.colliders)
-        if (collider.shape != HAIR_SHAPE_MESH || collider.mesh == session.live_colliders.head[0] ||
-            collider.mesh == session.live_colliders.head[1])
+        if (collider.shape != HAIR_SHAPE_MESH || collider.mesh == session.live_colliders.head)
             frame.colliders.push_back(collider);
     for (const view_followed& guide : reference.guides) {
         const float* from = &positions[3 * (size_t)guide.first];

@@ -252,7 +252,9 @@ int view_session_open(const hair_host& host, void* (*get_proc)(const char*, void
     desc.get_proc = get_proc;
     desc.timings = true;
     desc.glsl_dir = glsl.empty() ? nullptr : glsl.c_str();
-    return hair_exit_for(hair_context_create(&desc, &out.context));
+    int code = hair_exit_for(hair_context_create(&desc, &out.context));
+    out.live_colliders.context = out.context;
+    return code;
 }
 
 void view_session_close(view_session& session)

@@ -72,6 +72,7 @@ static int draw(view_session& session, const hair_scene& scene, uint32_t width, 
     if (!code) code = hair_exit_for(set_look(session, scene, quality));
     if (code) return code;
     if (session.character) hair_render_move_mesh(session.render, &session.character->mesh);
+    hair_render_set_breath(session.render, hair_head_rig_breath(&scene, (float)session.time));
     hair_render_set_shift(session.render, shift);
     hair_render_set_more_hair(session.render, session.pieces.at, session.pieces.count);
     return hair_render_frame(session.render, &drawn, session.transform, session.reach, session.hair, &image);
