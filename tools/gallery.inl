@@ -6,6 +6,8 @@
 #define BLUNT FINE "--set strand.length_variation=0.15 "
 #define CROPPED \
     FINE "--set strays.fraction=0.15 --set strays.distance=0,0.03,0.05,0.07,0.08,0.08,0.08,0.08 "
+#define MELANIN(eumelanin, pheomelanin) \
+    "--set pigment.weight=1 --set pigment.eumelanin=" eumelanin " --set pigment.pheomelanin=" pheomelanin " "
 // One guide per lock. Wide curls form fewer locks.
 #define TYPE(name, locks) \
     CLOSE "--set strand.radius=9e-5 --followers 24000 --set look=" name " --guides " locks
@@ -34,6 +36,13 @@ PICTURE("Blond", CLOSE FINE "--set color=blond")
 PICTURE("Red", CLOSE FINE "--set color=red")
 PICTURE("Black", CLOSE FINE "--set color=black")
 PICTURE("White", CLOSE FINE "--set color=white")
+
+ROW("Colours by the pigments of hair, and by dye")
+PICTURE("A little eumelanin", CLOSE FINE MELANIN("0.05", "0"))
+PICTURE("Pheomelanin and some eumelanin", CLOSE FINE MELANIN("0.08", "0.9"))
+PICTURE("Much eumelanin", CLOSE FINE MELANIN("1.3", "0.2"))
+PICTURE("Blue dye on blond hair", CLOSE FINE MELANIN("0.3", "0.1")
+        "--set pigment.dye.r=0.25 --set pigment.dye.g=0.5 --set pigment.dye.b=0.9")
 
 ROW("Colours that vary from strand to strand and along it")
 PICTURE("Bright streaks and dark roots",

@@ -47,11 +47,13 @@ static void settings_are_found_changed_and_reset(void** state)
     FILE* file = fopen(path, "w");
     assert_non_null(file);
     fprintf(file, "key P\nsave %s/0.json\n", folder);
-    for (int i = 0; i < count; ++i)
+    for (int i = 0; i < count; ++i) {
+        int way = strcmp(keys[i], "pigment.dye") ? 19 : -19; // A colour of 1 only becomes darker.
         fprintf(file,
-                "click Search\nkey Ctrl+A\ntext %s\nwait 2\ndrag %s 19 3\nsave %s/c%d.json\n"
+                "click Search\nkey Ctrl+A\ntext %s\nwait 2\ndrag %s %d 3\nsave %s/c%d.json\n"
                 "click Reset %s\nsave %s/r%d.json\n",
-                keys[i], keys[i], folder, i, keys[i], folder, i);
+                keys[i], keys[i], way, folder, i, keys[i], folder, i);
+    }
     fclose(file);
     snprintf(command, sizeof command,
              "$T $D/small.json --style long --set redblack.iterations=20 --size 1200x1500 --scale 1 --script "

@@ -153,8 +153,12 @@ void show_floats(viewer& viewer, const row& row)
         }
         hair_settings_set(TOOL, &viewer.document.scene->settings, row.key.c_str(), text.c_str());
     } else if (member.layout == HAIR_LAYOUT_COLOR && row.elements == 3) {
-        if (ImGui::ColorEdit3("##value", values, ImGuiColorEditFlags_Float | ImGuiColorEditFlags_HDR))
+        // Colours of lights may be brighter than 1.
+        if (ImGui::ColorEdit3("##value", values, ImGuiColorEditFlags_Float | ImGuiColorEditFlags_HDR)) {
+            for (int i = 0; i < 3; ++i)
+                values[i] = std::min(std::max(values[i], (float)member.min), (float)member.max);
             set(viewer, row, values, 3);
+        }
     } else if (row.elements > 1) {
         float speed = 0.005f * (float)(member.slider_max - member.slider_min);
         float low = (float)member.min, high = (float)member.max;
