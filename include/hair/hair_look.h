@@ -241,8 +241,8 @@ typedef struct hair_look {
     struct {
         /// Blend weight of the colour of the pigments over color.root and color.tip.
         float weight; ///< [0, 1]. Default 0.
-        /// Amount of eumelanin, which is black and brown: 0.1 is light blond, 0.3 is blond, 1.3 is
-        /// brown and 8 is black (Pharr et al. 2023).
+        /// Amount of eumelanin, which is black and brown. 0.3 is blond, 1.3 is brown and 8 is black
+        /// (Pharr et al. 2023).
         float eumelanin; ///< [0, 20]. Default 1.3.
         /// Amount of pheomelanin, which is red.
         float pheomelanin; ///< [0, 20]. Default 0.2.
@@ -251,6 +251,11 @@ typedef struct hair_look {
         /// Reflectance of dense hair with the dye and without pigment, linear rgb. White is no dye.
         float dye[3]; ///< [0, 1]. Default 1.
     } pigment;
+
+    /// Ratio of the axes of the elliptic cross section of fibres, for their scattering of light.
+    /// Fibres of a lock lie in all directions around their axis, so the mean of all directions is
+    /// drawn. Highlights of flat fibres are fainter. HAIR_SHADING_FIBRES only.
+    float flatness; ///< [0.2, 1]. Default 1.
 } hair_look;
 HAIR_DESC(hair_look)
 

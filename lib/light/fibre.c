@@ -1,8 +1,10 @@
-// fibre.c - lobes of a dielectric cylinder, summed over the points of its width where a ray enters.
+// fibre.c - lobes of a dielectric cylinder, summed over the points of its width where a ray enters,
+// and over the directions of its cross section.
 #include "lib/light/fibre.h"
 #include "lib/base/assert.h"
 
 #include <math.h>
+#include <stdbool.h>
 #include <string.h>
 
 #define PI 3.14159265358979
@@ -11,6 +13,10 @@
 // Number of rays over the fibre's width, at even angles from its middle and so denser at grazing
 // incidence.
 #define RAYS 96
+// Number of directions of an elliptic cross section over half a turn, and of rays in each.
+#define DIRECTIONS 24
+#define FLAT_RAYS 32
+#define MAX_RAYS (DIRECTIONS * FLAT_RAYS)
 
 void hair_fibre_variances(float roughness, float out[3])
 {
@@ -53,26 +59,95 @@ static double logistic(double x, double scale, double kept)
     return e / (scale * (1 + e) * (1 + e)) / kept;
 }
 
-// Paths of a ray that meets the fibre at the angle `in` around it, counted from its middle.
-// `fraction` is the fraction of all incoming light that leaves in each lobe without absorption.
-// `angle` is the angle from the incoming direction, and `path` the distance inside in radii.
+// Paths of a ray that meets the fibre. `fraction` is the fraction of all incoming light that leaves
+// in each lobe without absorption. `angle` is the angle from the incoming direction, and `path` the
+// distance inside in radii.
 struct ray {
     double fraction[LOBES], angle[LOBES], path[LOBES];
 };
 
-static struct ray trace(double in, double cos_d, double index)
+// Elliptic cross section of a fibre with the area of a unit circle, and light in its plane.
+struct fibre_section {
+    double axes[2]; // Halves, longer first.
+    double way[2]; // Unit direction in which the light goes.
+    double half_width; // Seen from the light.
+    double index, true_index; // Index of refraction across the fibre, and in space.
+    double cos_d; // Cosine of half the angle between the cones.
+};
+
+static struct fibre_section section_of(const struct hair_fibre* fibre, double turn, double cos_d)
 {
-    struct ray ray;
-    double sin_d = sqrt(1 - cos_d * cos_d), cos_t = sqrt(1 - sin_d * sin_d / (index * index));
-    double bravais = index * cos_t / cos_d; // Index of refraction as seen across the fibre.
-    HAIR_ASSERT(bravais >= 1);
-    double inside = asin(sin(in) / bravais), f = reflect(cos_d * cos(in), index);
-    double leg = 2 * cos(inside) / cos_t;
-    double through[LOBES] = {f, (1 - f) * (1 - f), (1 - f) * (1 - f) * f, (1 - f) * f * f};
-    for (int p = 0; p < LOBES; ++p) {
-        ray.fraction[p] = through[p] * 0.5 * PI / RAYS * cos(in);
-        ray.angle[p] = 2 * p * inside - 2 * in + p * PI;
-        ray.path[p] = p * leg;
+    double index = (double)fibre->index, sin_d = sqrt(1 - cos_d * cos_d), flat = (double)fibre->flatness;
+    struct fibre_section s = {
+        .axes = {1 / sqrt(flat), sqrt(flat)}, .way = {-cos(turn), -sin(turn)}, .cos_d = cos_d};
+    s.half_width = hypot(s.axes[0] * s.way[1], s.axes[1] * s.way[0]);
+    s.index = sqrt(index * index - sin_d * sin_d) / cos_d;
+    s.true_index = index;
+    HAIR_ASSERT(s.index >= 1);
+    return s;
+}
+
+// Move a point along a direction to where the line leaves the ellipse. Write the outward normal and
+// return the way.
+static double leave_section(const struct fibre_section* s, double at[2], const double way[2],
+                            double normal[2])
+{
+    double a = 0, b = 0, c = -1, length = 0;
+    for (int k = 0; k < 2; ++k) {
+        double p = at[k] / s->axes[k], d = way[k] / s->axes[k];
+        a += d * d, b += p * d, c += p * p;
+    }
+    double far = (-b + sqrt(fmax(b * b - a * c, 0))) / a;
+    for (int k = 0; k < 2; ++k) {
+        at[k] += far * way[k];
+        normal[k] = at[k] / (s->axes[k] * s->axes[k]);
+        length += normal[k] * normal[k];
+    }
+    for (int k = 0; k < 2; ++k) normal[k] /= sqrt(length);
+    return far;
+}
+
+// Refract a direction on the way through a surface by the ratio of the indices. `cosine` is that of
+// the direction and the normal along it, and `out` that behind the surface.
+static void refract(const double way[2], const double normal[2], double ratio, double cosine, double out,
+                    double result[2])
+{
+    for (int k = 0; k < 2; ++k) result[k] = ratio * way[k] + (out - ratio * cosine) * normal[k];
+}
+
+// Return the angle from the direction to the light to a direction that leaves the fibre.
+static double angle_from(const struct fibre_section* s, const double out[2])
+{
+    return atan2(s->way[1] * out[0] - s->way[0] * out[1], -s->way[0] * out[0] - s->way[1] * out[1]);
+}
+
+// Trace the ray at the height `h` of the half width. `weight` is its fraction of all light.
+static struct ray trace(const struct fibre_section* s, double h, double weight)
+{
+    struct ray ray = {.path = {0}};
+    const double *d = s->way, back[2] = {-d[0], -d[1]};
+    double at[2] = {-h * s->half_width * d[1], h * s->half_width * d[0]}, n[2], way[2], out[2];
+    leave_section(s, at, back, n);
+    double in = -(d[0] * n[0] + d[1] * n[1]), inside = sqrt(1 - (1 - in * in) / (s->index * s->index));
+    double f = reflect(s->cos_d * in, s->true_index), left = weight * (1 - f);
+    double along = sqrt(1 - (1 - s->cos_d * s->cos_d) / (s->true_index * s->true_index)), path = 0;
+    ray.fraction[0] = weight * f;
+    for (int k = 0; k < 2; ++k) out[k] = d[k] + 2 * in * n[k];
+    ray.angle[0] = angle_from(s, out);
+    const double inwards[2] = {-n[0], -n[1]};
+    refract(d, inwards, 1 / s->index, in, inside, way);
+    for (int p = 1; p < LOBES; ++p) {
+        path += leave_section(s, at, way, n) / along;
+        double cosine = way[0] * n[0] + way[1] * n[1],
+               square = 1 - (1 - cosine * cosine) * s->index * s->index;
+        f = square > 0 ? reflect(s->cos_d * sqrt(square), s->true_index) : 1; // All is reflected.
+        // The last lobe is all that is reflected twice or more.
+        ray.fraction[p] = left * (p < LOBES - 1 ? 1 - f : 1);
+        ray.path[p] = path;
+        refract(way, n, s->index, cosine, sqrt(fmax(square, 0)), out);
+        ray.angle[p] = angle_from(s, out);
+        for (int k = 0; k < 2; ++k) way[k] -= 2 * cosine * n[k];
+        left *= f;
     }
     return ray;
 }
@@ -83,17 +158,37 @@ static double cosine_of(int row)
     return cosine < 0.02 ? 0.02 : cosine;
 }
 
+// Trace rays over the width of a fibre. A circle is the same in all directions. Directions of an
+// ellipse receive light in proportion to their width. Return the number of rays.
+static int trace_all(const struct hair_fibre* fibre, double cos_d, struct ray rays[MAX_RAYS])
+{
+    bool is_flat = fibre->flatness < 1;
+    int directions = is_flat ? DIRECTIONS : 1, each = is_flat ? FLAT_RAYS : RAYS;
+    struct fibre_section section[DIRECTIONS];
+    double width = 0;
+    for (int k = 0; k < directions; ++k) {
+        section[k] = section_of(fibre, PI * (k + 0.5) / directions, cos_d);
+        width += section[k].half_width;
+    }
+    for (int k = 0; k < directions; ++k)
+        for (int i = 0; i < each; ++i) {
+            double in = PI * ((i + 0.5) / each - 0.5);
+            double weight = section[k].half_width / width * 0.5 * PI / each * cos(in);
+            rays[k * each + i] = trace(&section[k], sin(in), weight);
+        }
+    return directions * each;
+}
+
 static void fill_lobes(const struct hair_fibre* fibre, hair_fibre_table table)
 {
     double scale = (double)hair_fibre_scale(fibre->around);
     double kept = to_logistic(PI, scale) - to_logistic(-PI, scale);
     for (int row = 0; row < HAIR_FIBRE_ROWS; ++row) {
-        struct ray rays[RAYS];
-        for (int i = 0; i < RAYS; ++i)
-            rays[i] = trace(PI * ((i + 0.5) / RAYS - 0.5), cosine_of(row), (double)fibre->index);
+        struct ray rays[MAX_RAYS];
+        int count = trace_all(fibre, cosine_of(row), rays);
         for (int column = 0; column < HAIR_FIBRE_COLUMNS; ++column) {
             double phi = PI * column / (HAIR_FIBRE_COLUMNS - 1), sum[LOBES] = {0}, path[LOBES] = {0};
-            for (int i = 0; i < RAYS; ++i)
+            for (int i = 0; i < count; ++i)
                 for (int p = 0; p < LOBES; ++p) {
                     // Light that was reflected inside twice or more has lost its direction.
                     double density = p < 3 ? logistic(phi - rays[i].angle[p], scale, kept) : 0.5 / PI;

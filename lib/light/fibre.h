@@ -1,6 +1,6 @@
 // fibre.h - table of how one fibre scatters light around its axis, as a rough, absorbing dielectric
 // cylinder (Marschner et al. 2003; d'Eon et al. 2011). It also holds what many fibres do to light
-// (Zinke et al. 2008).
+// (Zinke et al. 2008). The mean of elliptic cylinders in all directions stands for flat fibres.
 #ifndef HAIR_LIGHT_FIBRE_H
 #define HAIR_LIGHT_FIBRE_H
 
@@ -11,6 +11,7 @@ struct hair_fibre {
     float around; // Azimuthal roughness, in [0.05, 1].
     float along; // Longitudinal roughness, in [0.05, 1].
     float index; // Index of refraction.
+    float flatness; // Ratio of the axes of the cross section, in [0.2, 1].
 };
 
 // Table of four lobes. R is reflected, TT transmitted, and TRT reflected once inside. The fourth
@@ -19,7 +20,7 @@ struct hair_fibre {
 // table[0] and table[1].xyz are functions of phi / pi and of a cosine. phi is the angle between
 // light and eye around the axis. The cosine is that of half the angle between their cones. table[0]
 // is the density of each lobe by phi without absorption, in 1/radian. table[1].xyz is the path of
-// TT, TRT and the fourth lobe inside the fibre, in radii.
+// TT, TRT and the fourth lobe inside the fibre, in radii of a circle of the same area.
 //
 // table[1].w is a factor that conserves energy. It is a function of the cosine of either direction
 // alone.

@@ -9,7 +9,8 @@ hair_result hair_lighting_ensure_fibres(struct hair_lighting* lighting, const ha
 {
     struct hair_fibres* fibres = &lighting->fibres;
     struct hair_gl* gl = lighting->gl;
-    struct hair_fibre params = {look->shading.roughness[1], look->shading.roughness[0], REFRACTION};
+    struct hair_fibre params = {look->shading.roughness[1], look->shading.roughness[0], REFRACTION,
+                                look->flatness};
     if (fibres->texture && memcmp(&params, &fibres->params, sizeof params) == 0) return HAIR_OK;
 
     static const uint32_t size[3] = {HAIR_FIBRE_COLUMNS, HAIR_FIBRE_ROWS, HAIR_FIBRE_LAYERS};

@@ -83,7 +83,7 @@ static void white_fibre_is_invisible_in_a_white_furnace(void** state)
 {
     static const float along[] = {0.1f, 0.3f, 0.6f, 1};
     for (int r = 0; r < 4; ++r) {
-        struct hair_fibre fibre = {0.3f, along[r], 1.55f};
+        struct hair_fibre fibre = {0.3f, along[r], 1.55f, 1};
         float found[EYES][4];
         double max = 0;
         light_everywhere(*state, &fibre, 0, found);
@@ -99,7 +99,7 @@ static void white_fibre_is_invisible_in_a_white_furnace(void** state)
 // a symmetric function.
 static void cuticle_tilt_moves_light_and_loses_none(void** state)
 {
-    struct hair_fibre fibre = {0.3f, 0.3f, 1.55f};
+    struct hair_fibre fibre = {0.3f, 0.3f, 1.55f, 1};
     float found[EYES][4];
     double sum = 0, weight = 0;
     light_everywhere(*state, &fibre, 0.05f, found);
@@ -117,7 +117,7 @@ static void scattering_is_reciprocal(void** state)
 {
     static const float tilts[] = {0, 0.05f, 0.3f};
     for (int t = 0; t < 3; ++t) {
-        struct hair_fibre fibre = {0.3f, 0.3f, 1.55f};
+        struct hair_fibre fibre = {0.3f, 0.3f, 1.55f, 1};
         float found[EYES][4];
         light_everywhere(*state, &fibre, tilts[t], found);
         for (int i = 0; i < EYES; ++i) {

@@ -10,7 +10,7 @@
 #define STRANDS 400
 #define RAYS 20000
 
-static const struct hair_fibre usual = {0.3f, 0.3f, 1.55f};
+static const struct hair_fibre usual = {0.3f, 0.3f, 1.55f, 1};
 
 static float fraction(void)
 {
@@ -108,7 +108,7 @@ static void sampled_directions_have_the_stated_density(void** state)
     static const double tilts[] = {0, 0.05, 0.3}, tangent[3] = {0, 1, 0}, none[1] = {0};
     const double pi = 3.14159265358979;
     for (int t = 0; t < 3; ++t) {
-        struct hair_fibre rough = {0.6f, 0.6f, 1.55f};
+        struct hair_fibre rough = {0.6f, 0.6f, 1.55f, 1};
         struct hair_reference_fibre fibre = fibre_of(&rough, tilts[t], table);
         for (int e = 0; e < 4; ++e) {
             const double eye[3] = {cos(0.35 * e), sin(0.35 * e), 0};

@@ -1,5 +1,5 @@
-// collider_count.c - Cost of a step by the number of colliders. Ten to ten thousand moving balls of
-// equal size, or collision meshes, are among the hair.
+// collider_count.c - Cost of a step by the number of colliders, and with recorded contacts. Ten to
+// ten thousand moving balls of equal size, or collision meshes, are among the hair.
 #include "tools/bench/collider_count.h"
 
 #include <epoxy/gl.h>
@@ -19,9 +19,10 @@
 #define POST_RADIUS 0.02f
 #define BUSY_FRAMES 40
 
-enum kind { BALLS, MESHES, POSTS_WHOLE, POSTS_OF_BALLS };
+enum kind { BALLS, MESHES, POSTS_WHOLE, POSTS_RECORDED, POSTS_OF_BALLS };
 
-static const char* const names[] = {"balls", "meshes", "posts", "posts of balls"};
+static const char* const names[] = {"balls", "meshes", "posts", "posts with recorded contacts",
+                                    "posts of balls"};
 
 struct subject {
     struct bench* bench;
@@ -147,6 +148,7 @@ static bool live(struct bench* bench, uint32_t guides, uint32_t count, enum kind
     result = out->colliders ? make_groom(out) : HAIR_ERROR_MEMORY;
     if (!result && kind == MESHES) result = make_mesh(out);
     if (!result) result = hair_create(bench->context, out->groom, &desc, &out->hair);
+    if (!result && kind == POSTS_RECORDED) result = hair_record_contacts(out->hair, 1);
     for (uint32_t i = 0; i < count && !result; ++i) out->colliders[i] = collider_of(out, kind, i, &random);
     if (!result) return true;
     die(out);
@@ -164,7 +166,15 @@ static double time_of_passes(hair_context* context)
     return ms;
 }
 
-// Draw one frame. Posts move together, other colliders move along different axes.
+// Read the contacts that the GPU has finished. Other steps may still run.
+static bool read_contacts(struct subject* subject)
+{
+    hair_collider_contact contacts[POSTS];
+    uint32_t count;
+    return !hair_get_contacts(subject->hair, false, contacts, sizeof *contacts, POSTS, &count);
+}
+
+// Step one frame. Posts move together, other colliders move along different axes.
 static bool ask_for_frame(struct subject* subject, double* ms_host)
 {
     float way = 0.05f / 60 * (++subject->frame % 120 < 60 ? 1.0f : -1.0f); // 5 cm/s
@@ -174,6 +184,7 @@ static bool ask_for_frame(struct subject* subject, double* ms_host)
     bool whole =
         !hair_set_colliders(subject->hair, subject->colliders, subject->count, sizeof *subject->colliders) &&
         !hair_step(subject->hair, 1.0f / 60);
+    if (whole && subject->kind == POSTS_RECORDED) whole = read_contacts(subject);
     *ms_host = hair_now() - start;
     return whole;
 }
@@ -262,6 +273,7 @@ void bench_collider_count(struct bench* bench)
     bool quick = bench->options.quick;
     // The bodies have the same shape, so that many colliders are touched as often as a few.
     compare_with(bench, POSTS_WHOLE, POSTS_OF_BALLS, quick ? 100 : 1000, 2);
+    compare_with(bench, POSTS_WHOLE, POSTS_RECORDED, POSTS, 0);
     // More bodies are touched more often.
     if (!quick) compare_with(bench, BALLS, BALLS, 100, 0);
     compare_with(bench, BALLS, BALLS, 1000, 0);

@@ -130,7 +130,8 @@ static bool trace(struct scatter* scatter)
 {
     static hair_fibre_table table;
     const hair_look* look = &scatter->shot.look;
-    struct hair_fibre of = {look->shading.roughness[1], look->shading.roughness[0], REFRACTION};
+    struct hair_fibre of = {look->shading.roughness[1], look->shading.roughness[0], REFRACTION,
+                            look->flatness};
     uint32_t rays = scatter->bench->options.quick ? RAYS_OF_QUICK : RAYS;
     uint32_t count = scatter->studio.info.follower_count * (SEGMENTS + 1), there = 0;
     float *positions = malloc(3 * sizeof *positions * count), variance[3];

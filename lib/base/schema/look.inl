@@ -141,9 +141,11 @@ FLOAT(hair_look, pigment.tip_fraction, 0.7, 0, 1, 0, 1, LINEAR, "",
       "Fraction of the pigments, without dye, that sun and washing have left at the tip.")
 COLOR(hair_look, pigment.dye, 1, 1, 1, 0, 1, 0, 1, "",
       "Reflectance of dense hair with the dye and without pigment, linear rgb.")
-END
 #undef GROUP
 #define GROUP ""
+FLOAT(hair_look, flatness, 1, 0.2, 1, 0.2, 1, LINEAR, "",
+      "Ratio of the axes of the elliptic cross section of fibres, for their scattering of light.")
+END
 BEGIN(hair_group_look)
 FLOAT(hair_group_look, radius, 1, 0, 4, 0, 4, LINEAR, "", "Multiple of the radius of the strands.")
 #undef GROUP
