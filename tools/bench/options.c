@@ -90,6 +90,8 @@ static const char* const methods[] = {"one by one",
                                       "mean",
                                       "layers",
                                       "followers",
+                                      "posts with recorded contacts",
+                                      "followers",
                                       NULL};
 // In the order of hair_thread_mapping.
 static const char* const mappings[] = {"auto", "workgroup_per_guide", "thread_per_guide", NULL};
