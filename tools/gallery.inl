@@ -38,7 +38,7 @@ PICTURE("Black", CLOSE FINE "--set color=black")
 PICTURE("White", CLOSE FINE "--set color=white")
 
 ROW("Colours by the pigments of hair, and by dye")
-PICTURE("A little eumelanin", CLOSE FINE MELANIN("0.05", "0"))
+PICTURE("A little of both melanins", CLOSE FINE MELANIN("0.05", "0.06"))
 PICTURE("Pheomelanin and some eumelanin", CLOSE FINE MELANIN("0.08", "0.9"))
 PICTURE("Much eumelanin", CLOSE FINE MELANIN("1.3", "0.2"))
 PICTURE("Blue dye on blond hair", CLOSE FINE MELANIN("0.3", "0.1")
