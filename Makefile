@@ -153,7 +153,7 @@ precompiled = $(if $(filter release,$(config)),$(if $(IS_GCC),$(B)/$(1)/precompi
 IS_GCC := $(shell $(CXX) --version | grep -o 'Free Software')
 include_precompiled = $(patsubst %.gch,-include %,$(call precompiled,$(1)))
 define precompile
-	@mkdir -p $(@D)
+@mkdir -p $(@D)
 	$(call say,$@)
 	$(Q)printf '#include <%s>\n' $(2) >$(@:.gch=)
 	$(Q)$(CPP) $(1) -x c++-header $(@:.gch=) -o $@
@@ -201,13 +201,16 @@ $(B)/tools/%.cpp.o: tools/%.cpp
 	@mkdir -p $(@D)
 	$(call say,$@)
 	$(Q)$(CPP) $(BULLET_CFLAGS) $(TOOL_CFLAGS) -c $< -o $@
+view_packages = @pkg-config --exists sdl2 imgui || { echo "hair-view needs libsdl2-dev and libimgui-dev; VIEW=0 leaves it out."; exit 1; }
 $(B)/tools/view/%.cpp.o: tools/view/%.cpp
 	@mkdir -p $(@D)
-	@pkg-config --exists sdl2 imgui || { echo "hair-view needs libsdl2-dev and libimgui-dev; VIEW=0 leaves it out."; exit 1; }
+	$(view_packages)
 	$(call say,$@)
 	$(Q)$(CPP) -Wshadow $(VIEW_CFLAGS) $(TOOL_CFLAGS) $(call include_precompiled,tools/view) -c $< -o $@
 $(call objects,tools/view/*.cpp): $(call precompiled,tools/view)
-$(B)/tools/view/precompiled.h.gch: ; $(call precompile,-Wshadow $(VIEW_CFLAGS) $(TOOL_CFLAGS),algorithm deque string vector imgui.h SDL.h)
+$(B)/tools/view/precompiled.h.gch:
+	$(view_packages)
+	$(call precompile,-Wshadow $(VIEW_CFLAGS) $(TOOL_CFLAGS),algorithm deque string vector imgui.h SDL.h)
 $(B)/tools/examples/%.c.o: tools/examples/%.c
 	@mkdir -p $(@D)
 	$(call say,$@)
@@ -224,7 +227,8 @@ $(B)/tests/reference/%.cpp.o: tests/reference/%.cpp $(call precompiled,tests/ref
 	@mkdir -p $(@D)
 	$(call say,$@)
 	$(Q)$(CPP) -O2 $(EIGEN) $(call include_precompiled,tests/reference) -c $< -o $@
-$(B)/tests/reference/precompiled.h.gch: ; $(call precompile,-O2 $(EIGEN),Eigen/Dense algorithm cmath vector)
+$(B)/tests/reference/precompiled.h.gch:
+	$(call precompile,-O2 $(EIGEN),Eigen/Dense algorithm cmath vector)
 $(B)/lib/bullet/%.cpp.o: lib/bullet/%.cpp
 	@mkdir -p $(@D)
 	$(call say,$@)

@@ -64,6 +64,24 @@ static void numbers_of_guides_are_those_of_physics(void** state)
     assert_true(number_of("contact", "", "high") > 0);
 }
 
+// The neck and the garment of the built-in head are a body, whose distances only the GPU knows.
+static void contacts_of_the_built_in_head_are_shown(void** state)
+{
+    (void)state;
+    char script[512];
+    snprintf(script, sizeof script, "click Debug\nclick contact\nwait 6\nreport %s/r.json\n",
+             hair_test_folder());
+    write_script(script);
+    hair_test_shell_expect(0,
+                           "$T --set guides=60 --set followers=500 --size 800x1100 --scale 1 --script $D/s "
+                           "--frames 30 --shot $D/head.png",
+                           "");
+    json_t* root = hair_test_shell_json("r.json");
+    assert_string_equal(json_string_value(json_object_get(json_object_get(root, "debug"), "mode")),
+                        "contact");
+    json_decref(root);
+}
+
 static void strands_drawn_follow_the_level_of_detail(void** state)
 {
     (void)state;
@@ -118,6 +136,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(numbers_of_guides_are_those_of_physics),
+        cmocka_unit_test(contacts_of_the_built_in_head_are_shown),
         cmocka_unit_test(strands_drawn_follow_the_level_of_detail),
         cmocka_unit_test(overdraw_grows_with_the_strands),
         cmocka_unit_test(each_view_has_a_picture_of_its_own),

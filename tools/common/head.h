@@ -4,8 +4,6 @@
 
 #include <hair/hair.h>
 
-#include <stdbool.h>
-
 struct head_mesh {
     float* positions; // xyz per vertex, m, in the space of the built-in haircuts
     float* normals; // xyz per vertex, unit, outwards

@@ -50,7 +50,8 @@ void find_velocity(view_debug& debug, const view_guide& guide)
 void find_contact(viewer& viewer, const view_guide& guide)
 {
     view_debug& debug = viewer.debug;
-    const std::vector<hair_collider>& colliders = viewer.session.colliders;
+    std::vector<hair_collider> colliders =
+        view_session_known_colliders(viewer.session, *viewer.document.scene);
     for (uint32_t i = guide.first; i < guide.first + guide.count; ++i) {
         const float* x = &debug.positions[0][3 * (size_t)i];
         const double point[3] = {(double)x[0], (double)x[1], (double)x[2]};

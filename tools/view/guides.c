@@ -40,6 +40,11 @@ struct hair_reference_rod* view_guide_rod(const hair_instance* hair, const hair_
     return hair_reference_guide_rod_create(&desc);
 }
 
+bool view_is_body(const hair_collider* collider)
+{
+    return collider->shape == HAIR_SHAPE_MESH && collider->mesh && collider->mesh->home;
+}
+
 double view_guide_distance(const double point[3], const hair_collider* colliders, uint32_t count)
 {
     double nearest = INFINITY;

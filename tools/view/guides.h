@@ -29,6 +29,9 @@ bool view_guide_touches(const double* positions, uint32_t vertices, const hair_c
 // Return the distance of a point from the nearest collider, m.
 double view_guide_distance(const double point[3], const hair_collider* colliders, uint32_t count);
 
+// Return whether a collider is the mesh of a hair_body, whose distances only the GPU knows.
+bool view_is_body(const hair_collider* collider);
+
 // Write the index of the patch of each follower.
 void view_find_patches(const hair_groom* groom, uint32_t* out);
 

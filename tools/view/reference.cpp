@@ -232,16 +232,17 @@ void view_reference_add(view_reference& reference, const view_session& session, 
     frame.dt = dt;
     frame.drag = hair_reference_guide_rod_drag(&scene.settings.physics, &wind);
     for (int i = 0; i < 3; ++i) frame.wind[i] = (double)wind.velocity[i];
-    // Meshes of Bullet objects may be gone when the thread reads the frame, and bodies have moved.
-    for (const hair_collider& collider : session.colliders)
+    std::vector<hair_collider> colliders = view_session_known_colliders(session, scene);
+    // Meshes of Bullet objects may be gone when the thread reads the frame.
+    for (const hair_collider& collider : colliders)
         if (collider.shape != HAIR_SHAPE_MESH || collider.mesh == session.live_colliders.head)
             frame.colliders.push_back(collider);
     for (const view_followed& guide : reference.guides) {
         const float* from = &positions[3 * (size_t)guide.first];
         size_t at = frame.shown.size();
         frame.shown.insert(frame.shown.end(), from, from + 3 * (size_t)guide.count);
-        bool is_held = view_guide_touches(&frame.shown[at], guide.count, session.colliders.data(),
-                                          (uint32_t)session.colliders.size(), reference.margin) ||
+        bool is_held = view_guide_touches(&frame.shown[at], guide.count, colliders.data(),
+                                          (uint32_t)colliders.size(), reference.margin) ||
                        std::any_of(session.pins.begin(), session.pins.end(),
                                    [&](const hair_pin& pin) { return pin.guide == guide.guide; });
         frame.is_held.push_back(is_held);

@@ -1,6 +1,10 @@
 // session.cpp - The living hair of a document: groom, instance, motion, and the drawn picture.
 #include "tools/view/session.h"
 
+extern "C" {
+#include "tools/view/guides.h"
+}
+
 #include <epoxy/gl.h>
 
 #include <math.h>
@@ -240,6 +244,21 @@ hair_result step_twin(view_session& session, float dt)
 }
 
 } // namespace
+
+std::vector<hair_collider> view_session_known_colliders(const view_session& session, const hair_scene& scene)
+{
+    std::vector<hair_collider> known;
+    for (const hair_collider& collider : session.colliders)
+        if (!view_is_body(&collider)) known.push_back(collider);
+    if (!scene.head || !session.live_colliders.body.body) return known;
+    hair_collider rest[HEAD_COLLIDERS], moved[HAIR_HEAD_RIG_COLLIDERS];
+    uint32_t count = head_colliders(rest, HEAD_COLLIDERS);
+    hair_head_rig_colliders(&scene, nullptr, (float)session.time, session.transform, moved);
+    // The head above the neck has a mesh.
+    for (uint32_t i = 0; i < count; ++i)
+        if (rest[i].position[1] < HAIR_HEAD_MOVES) known.push_back(moved[i]);
+    return known;
+}
 
 int view_session_open(const hair_host& host, void* (*get_proc)(const char*, void*), const std::string& glsl,
                       view_session& out)

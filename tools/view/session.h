@@ -76,6 +76,10 @@ int view_session_draw(view_session& session, const hair_scene& scene, uint32_t w
 int view_session_draw_shifted(view_session& session, const hair_scene& scene, uint32_t width, uint32_t height,
                               const view_quality& quality, const float shift[2]);
 
+// Return the colliders whose distances the CPU knows. Capsules stand for the body of the built-in
+// head. Other bodies are left out.
+std::vector<hair_collider> view_session_known_colliders(const view_session& session, const hair_scene& scene);
+
 // Return whether the hair sleeps, because it is in equilibrium.
 bool view_session_sleeps(const view_session& session);
 
