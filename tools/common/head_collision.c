@@ -161,7 +161,7 @@ static int append(const struct closed* closed, struct head_solid* out)
     }
     for (uint32_t i = 0; i < closed->vertex_count; ++i) index[i] = NONE;
     for (uint32_t i = 0; i < 3 * closed->triangle_count; ++i) {
-        uint32_t vertex = closed->triangles[0][i];
+        uint32_t vertex = closed->triangles[i / 3][i % 3];
         if (index[vertex] == NONE) {
             index[vertex] = out->vertex_count + used;
             memcpy(positions + 3 * (size_t)(out->vertex_count + used++),
