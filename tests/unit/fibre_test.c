@@ -64,13 +64,13 @@ static double fresnel(double in, double out, double index)
 
 // Elliptic cross section of a fibre with the area of a unit circle.
 struct section {
-    double flat, a, b, index;
+    double a, b, index; // Half axes, longer first, and index of refraction.
 };
 
 static struct section section_of(const struct hair_fibre* fibre)
 {
     double flat = (double)fibre->flatness;
-    return (struct section){flat, 1 / sqrt(flat), sqrt(flat), (double)fibre->index};
+    return (struct section){1 / sqrt(flat), sqrt(flat), (double)fibre->index};
 }
 
 static double width_of(const struct section* s, double turn)

@@ -217,7 +217,7 @@ static void check_surface(const hair_collision_mesh* mesh, const struct cut* cut
     head_surface_free(&part);
 }
 
-// Return a head that is turned and nods, about the first joint of the neck.
+// Return the pose of a head that is turned about the vertical axis.
 static struct hair_head_pose turned(float turn, float breath)
 {
     float c = cosf(turn), s = sinf(turn);

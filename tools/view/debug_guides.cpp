@@ -47,11 +47,8 @@ void find_velocity(view_debug& debug, const view_guide& guide)
     }
 }
 
-void find_contact(viewer& viewer, const view_guide& guide)
+void find_contact(view_debug& debug, const std::vector<hair_collider>& colliders, const view_guide& guide)
 {
-    view_debug& debug = viewer.debug;
-    std::vector<hair_collider> colliders =
-        view_session_known_colliders(viewer.session, *viewer.document.scene);
     for (uint32_t i = guide.first; i < guide.first + guide.count; ++i) {
         const float* x = &debug.positions[0][3 * (size_t)i];
         const double point[3] = {(double)x[0], (double)x[1], (double)x[2]};
@@ -111,6 +108,9 @@ void find_tension(viewer& viewer, const view_guide& guide)
 void find_values(viewer& viewer)
 {
     view_debug& debug = viewer.debug;
+    std::vector<hair_collider> colliders;
+    if (debug.mode == VIEW_DEBUG_CONTACT)
+        colliders = view_session_known_colliders(viewer.session, *viewer.document.scene);
     debug.values.assign(viewer.session.info.guide_vertex_count, 0);
     for (uint32_t i = 0; i < viewer.session.info.guide_count; ++i) {
         view_guide guide = view_guide_of(viewer.session.groom, i);
@@ -118,7 +118,7 @@ void find_values(viewer& viewer)
         case VIEW_DEBUG_STRETCH: find_stretch(viewer, guide); break;
         case VIEW_DEBUG_TENSION: find_tension(viewer, guide); break;
         case VIEW_DEBUG_VELOCITY: find_velocity(debug, guide); break;
-        default: find_contact(viewer, guide); break;
+        default: find_contact(debug, colliders, guide); break;
         }
     }
 }

@@ -11,6 +11,7 @@ extern "C" {
 #include <string.h>
 
 #include <algorithm>
+#include <iterator>
 
 namespace
 {
@@ -248,9 +249,9 @@ hair_result step_twin(view_session& session, float dt)
 std::vector<hair_collider> view_session_known_colliders(const view_session& session, const hair_scene& scene)
 {
     std::vector<hair_collider> known;
-    for (const hair_collider& collider : session.colliders)
-        if (!view_is_body(&collider)) known.push_back(collider);
-    if (!scene.head || !session.live_colliders.body.body) return known;
+    std::remove_copy_if(session.colliders.begin(), session.colliders.end(), std::back_inserter(known),
+                        [](const hair_collider& collider) { return view_is_body(&collider); });
+    if (!scene.head || known.size() == session.colliders.size()) return known;
     hair_collider rest[HEAD_COLLIDERS], moved[HAIR_HEAD_RIG_COLLIDERS];
     uint32_t count = head_colliders(rest, HEAD_COLLIDERS);
     hair_head_rig_colliders(&scene, nullptr, (float)session.time, session.transform, moved);
