@@ -118,8 +118,8 @@ static void pigment_and_dye_absorb_together(void** state)
     assert_int_equal(hair_look_find_colors(&look, root, tip), HAIR_ERROR_ARGUMENT);
 }
 
-// Check that more eumelanin makes darker hair, that tips are lighter than roots, and that pheomelanin
-// makes hair redder.
+// Check that more eumelanin makes darker hair, that tips are lighter than roots, and that
+// pheomelanin makes hair redder.
 static void pigment_goes_from_blond_to_black(void** state)
 {
     (void)state;
