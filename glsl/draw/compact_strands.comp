@@ -13,9 +13,11 @@ void main()
     uint number = hair_group();
     if (number >= count_patches()) return;
     hair_patch_lines lines = find_lines(number);
+    uint first = first_in_cache(number, lines.first), last = limit_to_cache(lines.strands) - 1u;
     for (uint i = gl_LocalInvocationID.x; i < lines.strands; i += HAIR_GROUP_SIZE) {
         float fraction = i + 1u == lines.strands ? lines.fading : 1.0;
         strand[start[number] + i] =
-            hair_strand(lines.first + i, lines.drawn * fraction, lines.widened, lines.whole);
+            hair_strand(lines.first + i, lines.drawn * fraction, lines.widened, lines.whole,
+                        first + min(i, last), 0u, 0u, 0u);
     }
 }

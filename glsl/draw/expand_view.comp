@@ -66,7 +66,8 @@ void main()
     if (place >= command[HAIR_EXPAND_VIEW_COMMAND].strands) return;
     hair_strand own = strand[place];
     // Vertices beyond the last segment of a strand lie at its tip.
-    strand_vertex v = strand_at(own.follower, place_of(k, own.whole), own.width, own.widened);
+    strand_vertex v =
+        strand_at(own.follower, own.cached, place_of(k, own.whole), own.width, own.widened);
     write_place(at, v);
 #ifndef HAIR_DEPTH
     shaded[at] = pack_color(v.color);

@@ -15,6 +15,7 @@ void main()
         uint          number   = i / each;
         float         t        = place_of(i % each, float(draw.segments));
         hair_follower follower = fetch_follower(number);
-        shaded[i] = pack_color(shade(fragment_of(follower, number, evaluate(follower, number, t), t)));
+        hair_point    point    = evaluate(follower, number, t);
+        shaded[i] = pack_color(shade(fragment_of(follower, number, number, point, t)));
     }
 }

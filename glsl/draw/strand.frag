@@ -58,6 +58,7 @@ vec4 shade_pixel()
     f.across   = clamp(strand_place.w, -1.0, 1.0);
     f.color    = max(strand_color, 0.0);
     f.strand   = strand_numbers.x;
+    f.cached   = strand_numbers.x;
     f.lock     = lock_of(strand_numbers.y);
     f.group    = group_of_lock(strand_numbers.y);
     f.seed     = strand_numbers.z;

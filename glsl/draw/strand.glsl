@@ -48,7 +48,7 @@ vec3 color_at(uint number, float t)
 vec3 color_at(uint number, float t) { return ramp_at(t); }
 #endif
 
-hair_fragment fragment_of(hair_follower follower, uint number, hair_point point, float t)
+hair_fragment fragment_of(hair_follower follower, uint number, uint cached, hair_point point, float t)
 {
     hair_fragment f;
     f.position = point.position;
@@ -60,6 +60,7 @@ hair_fragment fragment_of(hair_follower follower, uint number, hair_point point,
     f.lock     = follower.guide0;
     f.group    = group_of(follower);
     f.strand   = number;
+    f.cached   = cached;
     f.uv       = vec2(0.0);
     f.across   = 0.0;
     f.color    = tint_of(f.seed, f.lock, whole_t(t), f.random, color_at(number, whole_t(t)));
@@ -90,9 +91,10 @@ float place_of(uint k, float segments) { return min(float(k) / segments, 1.0); }
 layout(binding = HAIR_UNIT_SHADED) uniform samplerBuffer shaded_texture;
 #endif
 
-// Return a vertex of a strand. `width` is a factor of its own width. `widened` is the factor in
-// `width` that compensates for strands that are left out, 1 or more.
-strand_vertex strand_at(uint number, float t, float width, float widened)
+// Return a vertex of a strand. `cached` is the number of the strand in the vertex cache. `width` is
+// a factor of its own width. `widened` is the factor in `width` that compensates for strands that
+// are left out, 1 or more.
+strand_vertex strand_at(uint number, uint cached, float t, float width, float widened)
 {
     hair_follower follower = fetch_follower(number);
     hair_point    point    = evaluate(follower, number, t);
@@ -119,7 +121,7 @@ strand_vertex strand_at(uint number, float t, float width, float widened)
     if (draw.colored != 0u) {
         // A wider strand stands for others, which point as this one did before it moved.
         point.tangent   = tangent;
-        hair_fragment f = fragment_of(follower, number, point, t);
+        hair_fragment f = fragment_of(follower, number, cached, point, t);
         v.color         = shade(f);
         v.place.yz      = f.uv;
     }

@@ -15,5 +15,6 @@ void main()
     uint segment = lines.z + uint(gl_TessCoord.x * float(lines.w) + 0.5);
 
     float fading = line + 1u == lines.y ? whole.z : 1.0;
-    pass_on(strand_at(lines.x + line, place_of(segment, whole.x), whole.y * fading, whole.w));
+    uint  number = lines.x + line;
+    pass_on(strand_at(number, number, place_of(segment, whole.x), whole.y * fading, whole.w));
 }

@@ -17,13 +17,13 @@ void main()
     uint vertex = uint(gl_VertexID);
 #endif
     uint  each   = draw.segments + 1u;
-    uvec4 record =
-        texelFetch(strand_texture, int(uint(gl_InstanceID) * HAIR_INSTANCE_STRANDS + vertex / each));
+    uint  place  = uint(gl_InstanceID) * HAIR_INSTANCE_STRANDS + vertex / each;
+    uvec4 record = texelFetch(strand_texture, int(place) * HAIR_STRAND_TEXELS);
     // Vertices beyond the last segment of a strand lie at its tip.
     vec3  own = uintBitsToFloat(record.yzw); // width, widened and whole of hair_strand.
     float t   = place_of(vertex % each, own.z);
 
-    strand_vertex v = strand_at(record.x, t, own.x, own.y);
+    strand_vertex v = strand_at(record.x, record.x, t, own.x, own.y);
     pass_on(v);
 #ifdef HAIR_PAIRED
     float across = (gl_VertexID & 1) == 0 ? -1.0 : 1.0;

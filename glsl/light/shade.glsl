@@ -19,6 +19,7 @@ struct hair_fragment {
     uint  lock;     // The strand's guide.
     uint  group;    // The strand's group.
     uint  strand;   // Number of the follower.
+    uint  cached;   // Number of the follower in the vertex cache.
     vec2  uv;       // Texture coordinates of its root on the scalp. 0 if there are none.
     float across; // From -1 at one edge of a ribbon to 1 at the other. 0 when vertices are shaded.
     vec3  color;    // Reflectance.
@@ -44,7 +45,7 @@ float light_through(hair_fragment f, uint number, out float met)
 {
     float through;
     if (draw.light_values > 0u)
-        through = light_through_strands(number, f.strand, f.t, met);
+        through = light_through_strands(number, f.cached, f.t, met);
     else
         through = light_through_depth(number, f.position, f.seed, met);
     return through;
@@ -58,14 +59,14 @@ float sky_open(hair_fragment f, float through)
 {
     const float FIT_SHADED = 0.29, FIT_LIT = 0.13;
     if (draw.light_values == 0u) return FIT_SHADED + FIT_LIT * through;
-    return clamp(light_found(0u, f.strand, f.t).x, 1e-3, 1.0);
+    return clamp(light_found(0u, f.cached, f.t).x, 1e-3, 1.0);
 }
 
 // Return how parallel the strands around are: 1 for straight hair and 0 for curls. Without the
 // density grid, it is the mean of the head.
 float order_of(hair_fragment f)
 {
-    return draw.light_values > 0u ? light_found(0u, f.strand, f.t).y : draw.order;
+    return draw.light_values > 0u ? light_found(0u, f.cached, f.t).y : draw.order;
 }
 
 vec3 sky_of(hair_fragment f)

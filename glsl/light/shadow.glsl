@@ -35,7 +35,7 @@ float depth_in_map(sampler2D maps[HAIR_SHADOW_MAPS], uint map, vec2 at)
 const mat2 GOLDEN_TURN = mat2(-0.7373688, 0.6754903, -0.6754903, -0.7373688);
 
 // Return the fraction of the sky, 0, or of a light, from 1, that meets no strand. y is the number
-// of strands met.
+// of strands met. `strand` is a number of the vertex cache.
 vec2 light_found(uint which, uint strand, float t)
 {
     float at = clamp(t, 0.0, 1.0) * float(draw.segments), k = min(floor(at), float(draw.segments) - 1.0);

@@ -53,31 +53,31 @@ void find_widths(uint patch_, float widened)
     }
 }
 
-// Return the place where a vertex is drawn. Wider strands of a level of detail are drawn elsewhere.
-vec3 drawn_at(uint vertex, float widened)
+// Return the place where a vertex of a follower is drawn. Wider strands of a level of detail are
+// drawn elsewhere.
+vec3 drawn_at(uint vertex, uint number, float widened)
 {
     vec4 v = strand_vertex[vertex];
 #ifdef HAIR_WIDENED
-    uint       each  = draw.segments + 1u;
     hair_point point = hair_point(v.xyz, vec3(0.0), v.w);
-    float      t     = float(vertex % each) / float(draw.segments);
-    hair_follower follower = fetch_follower(vertex / each);
+    float      t     = float(vertex % (draw.segments + 1u)) / float(draw.segments);
+    hair_follower follower = fetch_follower(number);
     if (widened > 1.0) gather(follower, whole_t(t), v.w * (widened - 1.0), point);
     v.xyz = point.position;
 #endif
     return v.xyz;
 }
 
-// Return the strand beside vertex k as it is drawn `widened` times as wide.
-strand_bit find_bit(uint vertex, uint k, float widened, float thickness)
+// Return the follower `number` beside vertex k as it is drawn `widened` times as wide.
+strand_bit find_bit(uint vertex, uint k, uint number, float widened, float thickness)
 {
     strand_bit s;
-    s.at     = drawn_at(vertex, widened);
-    s.before = k > 0u ? drawn_at(vertex - 1u, widened) : s.at;
-    s.after  = k < draw.segments ? drawn_at(vertex + 1u, widened) : s.at;
+    s.at     = drawn_at(vertex, number, widened);
+    s.before = k > 0u ? drawn_at(vertex - 1u, number, widened) : s.at;
+    s.after  = k < draw.segments ? drawn_at(vertex + 1u, number, widened) : s.at;
     s.thin   = strand_vertex[vertex].w;
     s.radius = s.thin * thickness * widened;
-    s.seed   = vertex / (draw.segments + 1u);
+    s.seed   = number;
     return s;
 }
 

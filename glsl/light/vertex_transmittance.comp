@@ -104,10 +104,10 @@ float find_order(uint vertex, uint k, float part)
     return straight * straight;
 }
 
-// Light a vertex. `run` has the width of strands.
+// Light a vertex. `run` has the width of its strands.
 void light(density_grid grid, uint vertex, vertex_range run)
 {
-    uint k = vertex % (draw.segments + 1u);
+    uint k = vertex % (draw.segments + 1u), number = vertex / (draw.segments + 1u) + run.skipped;
     vec3 at = strand_vertex[vertex].xyz, before = k > 0u ? strand_vertex[vertex - 1u].xyz : at;
     vec3 after = k < draw.segments ? strand_vertex[vertex + 1u].xyz : at;
     vec3 tangent = direction_or(after - before, vec3(0.0, 1.0, 0.0));
@@ -124,7 +124,7 @@ void light(density_grid grid, uint vertex, vertex_range run)
         float met   = met_towards(grid, at, i, to, reach, gain) * sqrt(max(1.0 - along * along, 0.0));
         float open  = exp(-met);
         if (map < uint(HAIR_SHADOW_MAPS)) {
-            strand_bit s = find_bit(vertex, k, widened_in[map], run.thickness / run.widened);
+            strand_bit s = find_bit(vertex, k, number, widened_in[map], run.thickness / run.widened);
             vec3 to_eye = normalize(draw.eye.w > 0.0 ? draw.eye.xyz - at : draw.eye.xyz);
             float between = dot(to, to_eye);
             open = open_past_wide(open_in(map, i, to, s), between, widened_in[map]);

@@ -41,8 +41,12 @@ struct hair_strand {
     float     width;   // Factor of its own width.
     float     widened; // Factor within `width` that compensates for strands that are left out.
     float     whole;   // Number of segments. The fraction is that of the last one.
+    hair_uint cached; // Number of the strand in the vertex cache.
+    hair_uint unused0, unused1, unused2;
 };
 HAIR_SIZE(hair_strand)
+
+#define HAIR_STRAND_TEXELS 2 // Per hair_strand.
 
 // An indirect command. A draw begins with what OpenGL reads of an indexed indirect draw. The
 // dispatch that writes per-view vertices begins with three work group counts.
@@ -158,7 +162,9 @@ struct hair_draw_params {
     float     curl_rate;   // Phase of curls by length along a strand, radians/m.
     hair_uint grid_has_all; // 1 if the density grid has the strands that the view leaves out too.
     hair_uint strands_at; // Per-view vertex with the number of listed strands. 0 if there is none.
-    hair_uint unused0, unused1;
+    // Strands of each patch for which the vertex cache has room. 0 if the cache has all strands.
+    hair_uint cache_strands;
+    hair_uint unused0;
     hair_vec4 map_weights; // Weights of the sets of maps. Their sum is 1.
     // Parameters of the level of detail.
 

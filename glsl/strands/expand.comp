@@ -23,8 +23,8 @@ void main()
     vertex_range run  = find_vertex_range();
     uint       each = draw.segments + 1u;
     for (uint i = run.first; i < run.end; i += run.stride) {
-        hair_point point =
-            evaluate(fetch_follower(i / each), i / each, float(i % each) / float(draw.segments));
+        uint       number = i / each + run.skipped;
+        hair_point point  = evaluate(fetch_follower(number), number, float(i % each) / float(draw.segments));
         expanded[i] = vec4(point.position, point.radius);
 #ifndef HAIR_POSITIONS
         cached_tangent[i] = pack_tangent(point.tangent);

@@ -41,6 +41,18 @@ struct hair_patch_lines {
     float widened;   // Factor within `thickness` that compensates for strands that are left out.
 };
 
+// Return the number that the first strand of a patch has in the vertex cache.
+uint first_in_cache(uint number, uint first)
+{
+    return draw.cache_strands > 0u ? number * draw.cache_strands : first;
+}
+
+// Return how many of the first strands of a patch the vertex cache has room for.
+uint limit_to_cache(uint strands)
+{
+    return draw.cache_strands > 0u ? min(strands, draw.cache_strands) : strands;
+}
+
 hair_patch_lines find_lines(uint number)
 {
     hair_patch own = fetch_patch(number);

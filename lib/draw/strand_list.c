@@ -137,6 +137,7 @@ static struct hair_strand_list_key list_key(const struct hair_renderer* renderer
     of.params.strand_fraction = params->strand_fraction;
     of.params.segment_fraction = params->segment_fraction;
     of.params.width_power = params->width_power;
+    of.params.cache_strands = params->cache_strands;
     return of;
 }
 

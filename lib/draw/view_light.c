@@ -12,6 +12,21 @@ static bool needs_cache_of_a_part(const struct hair_renderer* renderer, const ha
            !hair_geometry_has_vertex_cache(renderer->geometry);
 }
 
+// Return whether a view finds the light of strands by the list of strands. Others find it by the
+// numbers of followers.
+static bool finds_light_by_list(const struct hair_draw_plan* plan)
+{
+    return plan->vertices == HAIR_VERTICES_PER_VIEW;
+}
+
+// Return the strands of each patch that the vertex cache of a part has room for, or 0 if for all.
+static uint32_t count_cached_strands(struct hair_renderer* renderer, const struct hair_draw_plan* plan)
+{
+    if (!finds_light_by_list(plan)) return 0;
+    return hair_geometry_choose_cached_strands(renderer->geometry,
+                                               hair_draw_max_patch_strands(renderer, plan->head, plan->view));
+}
+
 // Write the parameters of hair that casts shadows, also where hair is out of view or occluded.
 static void write_shadow_params(const struct hair_renderer* renderer, const struct hair_draw_plan* plan,
                                 const hair_view* view, struct hair_draw_params* out)
@@ -39,10 +54,11 @@ static bool keeps_light(const struct hair_renderer* renderer, const struct hair_
     const struct hair_light_age* age = &renderer->light_age;
     const struct hair_self_shadow_state* self_shadow = &renderer->lighting->self_shadow;
     const hair_lod* lod = plan->view->lod;
-    size_t vertices = hair_geometry_count_vertices(renderer->geometry);
+    size_t vertices = hair_geometry_count_cached(renderer->geometry, self_shadow->strands);
     uint32_t frames = renderer->frame - age->frame, index = plan->view->frame_index;
     bool fits = age->interval > 1 && lod && self_shadow->texture &&
                 self_shadow->numbers == vertices * plan->light_values && age->lights == plan->light_values &&
+                (!self_shadow->strands || finds_light_by_list(plan)) &&
                 hair_draw_estimate_fraction(renderer, lod) <= age->fraction;
     if (!fits) return false;
     // Lights may change while hair is not stepped.
@@ -57,11 +73,13 @@ hair_result hair_draw_ensure_self_shadow(struct hair_renderer* renderer, struct 
     if (keeps_light(renderer, plan)) return HAIR_OK;
     bool part = needs_cache_of_a_part(renderer, plan->view);
     write_shadow_params(renderer, plan, plan->view, &drawn);
+    drawn.cache_strands = part ? count_cached_strands(renderer, plan) : 0;
     all = drawn;
     if (plan->view->lod && !part) {
         hair_view whole = *plan->view;
         whole.lod = NULL; // All views of a step share the grid.
         write_shadow_params(renderer, plan, &whole, &all);
+        all.cache_strands = 0;
         drawn.origin.w = all.origin.w; // The size of the cells in the shared grid.
         drawn.grid_has_all = 1;
     }

@@ -4,13 +4,36 @@
 
 #include <math.h>
 
-// Make the buffers of the cache. Light needs no tangents.
-static hair_result ensure_cache_buffers(struct hair_geometry* geometry, bool is_for_light)
+#define SPARE 2 // A cache is made anew once many views in sequence need less than this part of it.
+#define GROWTH 8 // A cache has room for this part more strands than a view needs.
+
+size_t hair_geometry_count_cached(const struct hair_geometry* geometry, uint32_t strands)
+{
+    if (!strands) return hair_geometry_count_vertices(geometry);
+    return (size_t)geometry->patches * strands * (geometry->look.strand.segments + 1);
+}
+
+uint32_t hair_geometry_choose_cached_strands(struct hair_geometry* geometry, uint32_t strands)
+{
+    struct hair_vertex_cache* own = &geometry->vertex_cache;
+    HAIR_ASSERT(strands > 0);
+    uint32_t room = strands + strands / GROWTH;
+    bool needs_all = SPARE * (uint64_t)geometry->patches * room > geometry->followers;
+    bool has_all = !own->strands, is_spare = !needs_all && (has_all || own->strands > SPARE * room);
+    bool is_made = own->vertices && own->vertices == hair_geometry_count_cached(geometry, own->strands);
+    if (hair_gl_count_spare(&own->spare_strands, is_made && is_spare)) is_made = false;
+    if (is_made && (has_all || own->strands >= strands)) return own->strands;
+    return needs_all ? 0 : room;
+}
+
+// Make the buffers of the cache, for `strands` of each patch. Light needs no tangents.
+static hair_result ensure_cache_buffers(struct hair_geometry* geometry, uint32_t strands, bool is_for_light)
 {
     struct hair_gl* gl = geometry->gl;
     struct hair_vertex_cache* own = &geometry->vertex_cache;
-    size_t vertices = hair_geometry_count_vertices(geometry);
-    if (own->vertices != vertices) hair_geometry_free_vertex_cache(geometry);
+    size_t vertices = hair_geometry_count_cached(geometry, strands);
+    if (!is_for_light) own->spare_strands = 0;
+    if (own->vertices != vertices || own->strands != strands) hair_geometry_free_vertex_cache(geometry);
     if (hair_gl_count_spare(&own->spare, is_for_light && own->tangent && !own->is_complete))
         hair_gl_free_array(gl, &own->tangent, &own->tangent_texture);
     hair_result result =
@@ -22,14 +45,14 @@ static hair_result ensure_cache_buffers(struct hair_geometry* geometry, bool is_
     if (result)
         hair_geometry_free_vertex_cache(geometry);
     else
-        own->vertices = vertices;
+        own->vertices = vertices, own->strands = strands;
     return result;
 }
 
 hair_result hair_geometry_ensure_shaded(struct hair_geometry* geometry)
 {
     struct hair_vertex_cache* own = &geometry->vertex_cache;
-    HAIR_ASSERT(own->vertices > 0);
+    HAIR_ASSERT(own->vertices > 0 && !own->strands);
     hair_result result =
         hair_gl_ensure_array(geometry->gl, HAIR_GL_CATEGORY_EXPAND, "hair shaded", own->vertices * 8,
                              &own->shaded, GL_RGBA16F, &own->shaded_texture);
@@ -47,7 +70,7 @@ void hair_geometry_free_vertex_cache(struct hair_geometry* geometry)
     struct hair_vertex_cache* own = &geometry->vertex_cache;
     hair_gl_free_array(geometry->gl, &own->position, &own->position_texture);
     hair_gl_free_array(geometry->gl, &own->tangent, &own->tangent_texture);
-    own->vertices = 0;
+    own->vertices = own->strands = 0;
     own->is_complete = 0;
     hair_geometry_free_shaded(geometry);
     hair_geometry_free_history(geometry, &geometry->history);
@@ -66,7 +89,8 @@ static bool is_fresh(const struct hair_geometry* geometry)
 
 bool hair_geometry_has_vertex_cache(const struct hair_geometry* geometry)
 {
-    return geometry->vertex_cache.vertices == hair_geometry_count_vertices(geometry) && is_fresh(geometry);
+    return geometry->vertex_cache.vertices == hair_geometry_count_vertices(geometry) &&
+           !geometry->vertex_cache.strands && is_fresh(geometry);
 }
 
 hair_result hair_geometry_ensure_vertex_cache(struct hair_geometry* geometry,
@@ -75,7 +99,7 @@ hair_result hair_geometry_ensure_vertex_cache(struct hair_geometry* geometry,
     struct hair_gl* gl = geometry->gl;
     struct hair_vertex_cache* vertex_cache = &geometry->vertex_cache;
     hair_gl_pass pass = hair_geometry_choose_variant(geometry, drawn ? HAIR_GL_EXPAND_DRAWN : HAIR_GL_EXPAND);
-    hair_result result = ensure_cache_buffers(geometry, drawn != NULL);
+    hair_result result = ensure_cache_buffers(geometry, drawn ? drawn->cache_strands : 0, drawn != NULL);
     if (!result) result = hair_gl_ensure_program(gl, pass);
     if (result || is_fresh(geometry)) return result;
     struct hair_draw_params params;
@@ -86,7 +110,7 @@ hair_result hair_geometry_ensure_vertex_cache(struct hair_geometry* geometry,
     hair_gl_write_uniform(gl, geometry->params, sizeof params, &params);
     hair_geometry_bind(geometry);
     hair_geometry_save_history(geometry);
-    HAIR_ASSERT(vertex_cache->vertices == hair_geometry_count_vertices(geometry) && params.chunks > 0);
+    HAIR_ASSERT(vertex_cache->strands == params.cache_strands && params.chunks > 0);
     const GLuint buffers[] = {vertex_cache->position, drawn ? 0 : vertex_cache->tangent};
     hair_gl_bind_buffers(gl, GL_SHADER_STORAGE_BUFFER, HAIR_BIND_CACHED_POSITION, 2, buffers);
     hair_gl_run(gl, pass, geometry->patches * params.chunks);

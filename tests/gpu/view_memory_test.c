@@ -165,6 +165,87 @@ static void light_makes_no_tangents(void** state)
     hair_test_scene_free(&scene);
 }
 
+// Draw moved hair, its depth first, as a list that both views share.
+static void draw_depth_and_color(struct hair_test_scene* scene, double mean[4])
+{
+    hair_test_ok(scene->test, hair_step(scene->hair, 1.0f / 60));
+    scene->view.pass = HAIR_PASS_DEPTH;
+    draw(scene);
+    scene->view.pass = HAIR_PASS_COLOR;
+    draw(scene);
+    read_mean(scene, mean);
+}
+
+// Light of few strands takes little memory, and is that of a cache with room for all strands.
+static void expect_same_light(struct hair_test* test, const hair_lod* lod)
+{
+    struct hair_test_scene scene = make_lit_scene(test, lod);
+    const struct hair_vertex_cache* cache = &scene.hair->geometry.vertex_cache;
+    double few[4], all[4], again[4];
+    scene.view.light_count = 1;
+    set_away(&scene, 5);
+    draw_depth_and_color(&scene, few);
+    assert_true(few[0] > 1e-4);
+    assert_true(cache->strands > 0);
+    assert_true(cache->vertices < hair_geometry_count_vertices(&scene.hair->geometry) / 2);
+    uint64_t bytes = hair_test_gpu_bytes(test);
+    scene.view.lod = NULL;
+    draw(&scene);
+    assert_int_equal(cache->strands, 0);
+    assert_true(hair_test_gpu_bytes(test) > bytes);
+    scene.view.lod = lod;
+    draw_depth_and_color(&scene, all);
+    assert_int_equal(cache->strands, 0); // Another view may need all again.
+    for (int i = 0; i < 70; ++i) draw_depth_and_color(&scene, again);
+    assert_true(cache->strands > 0);
+    for (int k = 0; k < 4; ++k) {
+        assert_float_equal(few[k], all[k], 1e-5);
+        assert_float_equal(again[k], all[k], 1e-5);
+    }
+    hair_test_scene_free(&scene);
+}
+
+static void light_of_few_strands_is_the_same(void** state)
+{
+    hair_lod lod = hair_lod_default();
+    lod.light_pixels = 0; // Each view computes its light.
+    expect_same_light(*state, &lod);
+    lod.per_patch = false; // All views share a list.
+    lod.strand_fraction = 0.1f;
+    expect_same_light(*state, &lod);
+}
+
+// Draw small hair by a shader of the application, `frames` frames after views that found light by
+// their list.
+static void expect_same_light_in_shader(struct hair_test* test, hair_shader* shader, int frames)
+{
+    hair_lod lod = hair_lod_default(); // Light is kept for some frames.
+    struct hair_test_scene scene = make_lit_scene(test, &lod);
+    double own[4], shaded[4];
+    scene.view.light_count = 1;
+    set_away(&scene, 5);
+    for (int i = 0; i <= frames; ++i) draw_depth_and_color(&scene, own);
+    assert_true(scene.hair->geometry.vertex_cache.strands > 0);
+    scene.view.shader = shader;
+    draw_depth_and_color(&scene, shaded);
+    for (int k = 0; k < 4; ++k) assert_float_equal(shaded[k], own[k], 0.25 * own[k]);
+    hair_test_scene_free(&scene);
+}
+
+// Pixels are shaded with the light of a strand by its number. Pixels have more of the highlights
+// than vertices, so the means differ.
+static void shader_finds_the_light_of_few_strands(void** state)
+{
+    struct hair_test* test = *state;
+    hair_shader_desc desc = hair_shader_desc_default();
+    hair_shader* shader = NULL;
+    desc.at = HAIR_SHADE_PIXELS;
+    desc.glsl = "vec4 hair_shade(hair_fragment f) { return vec4(hair_shade_ours(f), 1.0); }";
+    hair_test_ok(test, hair_shader_create(test->context, &desc, &shader));
+    for (int i = 0; i < 4; ++i) expect_same_light_in_shader(test, shader, i);
+    hair_shader_destroy(shader);
+}
+
 static void far_field_has_fewer_voxels_and_the_same_light(void** state)
 {
     hair_lod lod = hair_lod_default();
@@ -216,9 +297,12 @@ static void near_view_after_a_far_view_is_pushed_out(void** state)
 int main(void)
 {
     if (hair_test_skips()) return 0;
-    const struct CMUnitTest tests[] = {
-        HAIR_TEST(views_never_list_more_strands_than_fit), HAIR_TEST(memory_follows_the_distance),
-        HAIR_TEST(light_makes_no_tangents), HAIR_TEST(far_field_has_fewer_voxels_and_the_same_light),
-        HAIR_TEST(near_view_after_a_far_view_is_pushed_out)};
+    const struct CMUnitTest tests[] = {HAIR_TEST(views_never_list_more_strands_than_fit),
+                                       HAIR_TEST(memory_follows_the_distance),
+                                       HAIR_TEST(light_makes_no_tangents),
+                                       HAIR_TEST(light_of_few_strands_is_the_same),
+                                       HAIR_TEST(shader_finds_the_light_of_few_strands),
+                                       HAIR_TEST(far_field_has_fewer_voxels_and_the_same_light),
+                                       HAIR_TEST(near_view_after_a_far_view_is_pushed_out)};
     return cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);
 }
