@@ -312,7 +312,7 @@ $(B)/tests/golden/first_head_test: private TEST_LIBS += $(call packages,--libs,s
 GLTF := $(patsubst %,$(B)/tools/common/%.c.o,file gltf gltf_animation gltf_buffer gltf_mesh gltf_node json)
 $(B)/tests/unit/gltf_test $(B)/tests/unit/gltf_refused_test: $(GLTF)
 CHARACTER := $(patsubst %,$(B)/tools/common/%.c.o,builtin camera character character_hair groom_source head head_eyes head_parts \
-  head_subdivide motion obj scene scene_bullet scene_character scene_colliders scene_cuts scene_lights scene_maps scene_wind settings \
+  head_subdivide head_tie motion obj scene scene_bullet scene_character scene_colliders scene_cuts scene_lights scene_maps scene_wind settings \
   settings_keys)
 $(B)/tests/gpu/character_test: $(CHARACTER) $(GLTF)
 $(B)/tests/unit/gltf_test $(B)/tests/unit/gltf_refused_test $(B)/tests/gpu/character_test: private TEST_LIBS := $(B)/libhair.a $(TEST_LIBS)

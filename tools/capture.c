@@ -131,7 +131,8 @@ static int make_render(struct capture* capture)
                                     .supersample = options->supersample,
                                     .linear = capture->outputs.frames.kind == HAIR_FRAME_WRITER_EXR};
     int code = hair_render_create(TOOL, &desc, &capture->render);
-    return code ? code : hair_scene_set_mesh(TOOL, &options->scene, capture->character, capture->render);
+    if (code) return code;
+    return hair_scene_set_mesh(TOOL, &options->scene, capture->groom, capture->character, capture->render);
 }
 
 // Set the scene's colliders and those of Bullet objects that the hair can reach.

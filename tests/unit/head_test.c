@@ -19,6 +19,9 @@
 #include "tools/common/head_parts.c"
 #include "tools/common/head_pose.c"
 #include "tools/common/head_subdivide.c"
+#undef COLUMNS
+#undef ROWS
+#include "tools/common/head_tie.c"
 
 static hair_asset* make_scalp(hair_asset_info* info)
 {
@@ -40,7 +43,7 @@ static void roots_lie_on_the_skin(void** state)
     hair_asset_info info;
     hair_asset* asset = make_scalp(&info);
     struct head_mesh mesh;
-    assert_int_equal(head_mesh_create(&mesh), 0);
+    assert_int_equal(head_mesh_create(NULL, &mesh), 0);
     for (uint32_t i = 0; i < info.scalp_vertex_count; ++i) {
         point root = point_of(info.scalp_positions + 3 * i);
         float nearest = INFINITY, height = INFINITY;
@@ -79,7 +82,7 @@ static void the_mesh_is_sound_and_faces_outwards(void** state)
 {
     (void)state;
     struct head_mesh mesh;
-    assert_int_equal(head_mesh_create(&mesh), 0);
+    assert_int_equal(head_mesh_create(NULL, &mesh), 0);
     assert_true(mesh.triangle_count > 100000 && mesh.triangle_count < 300000);
     uint32_t skin = 0, wet = 0, cloth = 0, hairs = 0;
     for (uint32_t i = 0; i < mesh.vertex_count; ++i) {
@@ -117,6 +120,61 @@ static void the_mesh_is_sound_and_faces_outwards(void** state)
     }
     assert_true(volume / 6 > 0.01 && volume / 6 < 0.04);
     head_mesh_free(&mesh);
+}
+
+static bool find_tie(hair_style style, struct head_tie* out)
+{
+    hair_style_desc desc = hair_style_desc_default();
+    hair_groom_desc groom_desc = hair_groom_desc_default();
+    hair_asset* asset = NULL;
+    hair_groom* groom = NULL;
+    desc.style = style;
+    assert_int_equal(hair_asset_generate(&desc, &asset), HAIR_OK);
+    assert_int_equal(hair_asset_to_groom_desc(asset, &groom_desc), HAIR_OK);
+    assert_int_equal(hair_groom_create(&groom_desc, &groom), HAIR_OK);
+    bool is_tied = head_find_tie(groom, out);
+    hair_groom_destroy(groom);
+    hair_asset_destroy(asset);
+    return is_tied;
+}
+
+// Check that only tied haircuts have a tie, and the places of those of a ponytail and of a braid.
+static void ties_are_where_hair_is_tied(void** state)
+{
+    (void)state;
+    struct head_tie tie;
+    for (int style = 0; style < HAIR_STYLE_COUNT; ++style) {
+        bool is_tied = style == HAIR_STYLE_PONYTAIL || style == HAIR_STYLE_BUN || style == HAIR_STYLE_BRAID;
+        assert_int_equal(find_tie((hair_style)style, &tie), is_tied);
+        if (style != HAIR_STYLE_PONYTAIL && style != HAIR_STYLE_BRAID) continue;
+        bool is_high = style == HAIR_STYLE_PONYTAIL; // Above the ears, behind the head.
+        point way = head_add(point_of(tie.at), (point){0, is_high ? 1.672f : 1.590f, -0.105f}, -1);
+        assert_true(head_dot(way, way) < 0.015f * 0.015f);
+        assert_true(tie.axis[2] < -0.5f); // Hair goes away from the head.
+        assert_true(tie.radius > 0.004f && tie.radius < 0.012f);
+    }
+}
+
+// Check that the band is closed and faces outwards, by the volume of a torus.
+static void band_is_a_torus(void** state)
+{
+    (void)state;
+    const struct head_tie tie = {{0.1f, 1.5f, -0.2f}, {0.6f, 0, -0.8f}, 0.01f};
+    struct head_builder builder = {0};
+    head_put_tie(&builder, &tie);
+    const struct head_mesh* mesh = &builder.mesh;
+    assert_false(builder.failed);
+    double volume = 0, radius = 0.01 + 0.5 * (double)THICKNESS;
+    for (uint32_t i = 0; i < mesh->triangle_count; ++i) {
+        point p[3];
+        for (int k = 0; k < 3; ++k)
+            p[k] = head_add(point_of(mesh->positions + 3 * (size_t)mesh->triangles[3 * i + (uint32_t)k]),
+                            point_of(tie.at), -1);
+        volume += (double)head_dot(p[0], head_cross(p[1], p[2])) / 6;
+    }
+    double exact = 2 * PI * PI * radius * (double)THICKNESS * (double)THICKNESS;
+    assert_true(fabs(volume / exact - 1) < 0.04);
+    head_mesh_free(&builder.mesh);
 }
 
 // Check the rules of Catmull and Clark on a cube of side 2, and on an open square.
@@ -321,6 +379,8 @@ int main(void)
         cmocka_unit_test(roots_lie_on_the_skin),
         cmocka_unit_test(paint_follows_the_hairline),
         cmocka_unit_test(the_mesh_is_sound_and_faces_outwards),
+        cmocka_unit_test(ties_are_where_hair_is_tied),
+        cmocka_unit_test(band_is_a_torus),
         cmocka_unit_test(a_cube_is_subdivided_by_the_rules),
         cmocka_unit_test(colliders_fill_the_scalp_from_inside),
         HAIR_TEST_WITH_HOST(surfaces_are_those_that_are_drawn, &host),

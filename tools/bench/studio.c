@@ -54,7 +54,8 @@ static bool make_head(struct bench_studio* studio)
     glCreateVertexArrays(2, studio->arrays);
     glCreateBuffers(2, studio->buffers);
     if (!scene->head && scene->subject != HAIR_SUBJECT_FUR) return true;
-    if (scene->head ? head_mesh_create(&mesh) : hair_head_rig_ball(scene->ball_radius, &mesh)) return false;
+    if (scene->head ? head_mesh_create(NULL, &mesh) : hair_head_rig_ball(scene->ball_radius, &mesh))
+        return false;
     studio->indices = 3 * mesh.triangle_count;
     glNamedBufferStorage(studio->buffers[0], (GLsizeiptr)(mesh.vertex_count * 3 * sizeof(float)),
                          mesh.positions, 0);

@@ -92,12 +92,13 @@ static void put_part(struct head_builder* builder, enum head_part part)
     head_surface_free(&surface);
 }
 
-int head_mesh_create(struct head_mesh* out)
+int head_mesh_create(const struct head_tie* tie, struct head_mesh* out)
 {
     struct head_builder builder = {0};
     for (enum head_part part = HEAD_SKIN; part < HEAD_PARTS && !builder.failed; ++part)
         put_part(&builder, part);
     head_put_eyes(&builder);
+    if (tie) head_put_tie(&builder, tie);
     uint32_t coarse = builder.mesh.triangle_count;
     head_put_brows(&builder);
     head_put_lashes(&builder);

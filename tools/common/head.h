@@ -17,8 +17,16 @@ struct head_mesh {
     uint32_t fine_count; // number of triangles of brows, lashes and fine hairs, the last ones
 };
 
-// Create the mesh of the bust. Return 0, or -1 if memory runs out.
-int head_mesh_create(struct head_mesh* out);
+// A band that holds hair together.
+struct head_tie {
+    float at[3]; // centre, m, in the space of the built-in haircuts
+    float axis[3]; // unit, along the hair
+    float radius; // of the hair inside, m
+};
+
+// Create the mesh of the bust, with a hair tie unless `tie` is NULL. Return 0, or -1 if memory runs
+// out.
+int head_mesh_create(const struct head_tie* tie, struct head_mesh* out);
 void head_mesh_free(struct head_mesh* mesh);
 
 #define HEAD_KIND_HAIR 0.5f // Kind of brows, lashes and fine hairs, which have the colour of hair.

@@ -71,6 +71,8 @@ float head_above_hairline(struct head_point p);
 
 // Add both eyeballs.
 void head_put_eyes(struct head_builder* builder);
+// Add a band around hair. Defined in head_tie.c.
+void head_put_tie(struct head_builder* builder, const struct head_tie* tie);
 // Add brows and lashes. Brows grow on the triangles that the mesh has.
 void head_put_brows(struct head_builder* builder);
 void head_put_lashes(struct head_builder* builder);

@@ -277,6 +277,13 @@ int view_session_open(const hair_host& host, void* (*get_proc)(const char*, void
     return code;
 }
 
+// Return whether another mesh is drawn beside the hair. Only some haircuts have a hair tie.
+static bool mesh_differs(const hair_scene& a, const hair_scene& b)
+{
+    return a.head != b.head || a.subject != b.subject || a.ball_radius != b.ball_radius ||
+           a.settings.style.style != b.settings.style.style || strcmp(a.groom, b.groom) != 0;
+}
+
 void view_session_close(view_session& session)
 {
     hair_cuts_destroy(&session.pieces);
@@ -305,10 +312,7 @@ int view_session_apply(view_session& session, hair_scene& scene, const std::stri
         if (code) restore(session, scene);
     }
     if (code) return code;
-    bool has_other_mesh =
-        !is_first && (session.applied->head != scene.head || session.applied->subject != scene.subject ||
-                      session.applied->ball_radius != scene.ball_radius);
-    if (has_other_mesh) destroy_renders(session);
+    if (!is_first && mesh_differs(*session.applied, scene)) destroy_renders(session);
     fit(session, scene);
     if (is_first) session.applied = std::make_unique<hair_scene>();
     *session.applied = scene;

@@ -21,7 +21,7 @@ int make_render(view_session& session, const hair_scene& scene, const hair_rende
     session.render_descs[which] = desc;
     int code = hair_render_create(TOOL, &desc, &render);
     session.render = render;
-    return code ? code : hair_scene_set_mesh(TOOL, &scene, session.character, render);
+    return code ? code : hair_scene_set_mesh(TOOL, &scene, session.groom, session.character, render);
 }
 
 // Give the instance the look of a quality.
