@@ -3,7 +3,7 @@
 #ifndef HAIR_GL_COMMANDS_H
 #define HAIR_GL_COMMANDS_H
 
-#include "lib/gl/gl.h"
+#include "lib/gl/buffers.h"
 
 // commands.c --------------------------------------------------------------------------------------
 

@@ -1,6 +1,6 @@
 // memory.c - the record of every buffer and texture: its size, the instance that owns it and its
 // category in reports.
-#include "lib/gl/gl.h"
+#include "lib/gl/buffers.h"
 
 // Slots are a hash table with linear probing, never more than half full. A name of 0 marks a free
 // slot.
