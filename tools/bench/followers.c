@@ -1,16 +1,18 @@
 // followers.c - Suite `followers`, the error of strands that are interpolated between guides. The
 // same haircut with every strand simulated is the truth.
-#include "tools/bench/crowd.h"
+#include "tools/bench/crowd_space.h"
 
 #include <math.h>
 #include <stdlib.h>
 
 #define DEEP 1e-3 // depth from which on a strand counts as inside a collider, m
+#define BEYOND 5e-3 // distance from which on a strand counts as beyond the middle of the head, m
 
 static const char* const columns[] = {
-    "case",         "method", "strands",   "guides",       "guide_fraction", "vertices",     "length",
-    "rms_error",    "rms_mm", "max_error", "rest_error",   "motion",         "length_error", "inside",
-    "inside_truth", "ms",     "ms_step",   "ms_followers", "runs",           "front",        NULL};
+    "case",         "method",  "strands",       "guides",     "guide_fraction", "vertices",     "length",
+    "rms_error",    "rms_mm",  "max_error",     "rest_error", "motion",         "length_error", "inside",
+    "inside_truth", "crossed", "crossed_truth", "volume",     "volume_truth",   "ms",           "ms_step",
+    "ms_followers", "runs",    "front",         NULL};
 
 static const struct crowd_style styles[] = {
     {"straight", HAIR_STYLE_BOB, 32},
@@ -31,12 +33,16 @@ struct truth {
     double mean_length;
     double motion; // rms distance of the strands from hair that is rigid, over the length
     uint32_t inside; // strands inside colliders, over all frames
+    uint32_t crossed; // strands beyond the middle of the head, over all frames
+    double rest_volume; // m^3
+    double volume; // sum over all frames, m^3
 };
 
 struct error {
     double squares, squares_mm, max, rest, longer;
     uint64_t vertices;
-    uint32_t inside;
+    uint32_t inside, crossed;
+    double volume; // sum over all frames, m^3
 };
 
 static double distance(const float* a, const float* b)
@@ -96,11 +102,14 @@ static bool find_truth(struct bench* bench, const struct crowd_desc* scene, stru
     for (uint32_t i = 0; i < crowd.strands && whole; ++i)
         out->mean_length += (out->length[i] = length_of(out->strands + each * i, crowd.vertices));
     out->mean_length /= crowd.strands;
+    if (whole) out->rest_volume = bench_crowd_measure_volume(&crowd, out->strands);
     for (uint32_t k = 1; k <= CROWD_FRAMES && whole; ++k) {
         float* strands = out->strands + size * k;
         whole = !bench_was_interrupted() && bench_crowd_step(&crowd) && bench_crowd_read(&crowd, strands);
         if (!whole) break;
         out->inside += bench_crowd_count_inside(&crowd, strands, DEEP);
+        out->crossed += bench_crowd_count_crossed(&crowd, strands, BEYOND);
+        out->volume += bench_crowd_measure_volume(&crowd, strands);
         out->motion += compare_to_rigid(&crowd, out, strands);
     }
     out->motion = sqrt(out->motion / ((double)CROWD_FRAMES * crowd.strands * crowd.vertices));
@@ -145,6 +154,8 @@ static bool find_error(struct crowd* crowd, const struct truth* truth, struct er
         if (!whole) break;
         compare_frame(crowd, truth, strands, truth->strands + size * k, out);
         out->inside += bench_crowd_count_inside(crowd, strands, DEEP);
+        out->crossed += bench_crowd_count_crossed(crowd, strands, BEYOND);
+        out->volume += bench_crowd_measure_volume(crowd, strands);
     }
     free(strands);
     return whole;
@@ -200,6 +211,10 @@ static void add_row(const char* name, const char* method, const struct crowd* cr
     bench_set_number(row, "length_error", error->longer);
     bench_set_count(row, "inside", error->inside);
     bench_set_count(row, "inside_truth", truth->inside);
+    bench_set_count(row, "crossed", error->crossed);
+    bench_set_count(row, "crossed_truth", truth->crossed);
+    bench_set_number(row, "volume", error->volume / truth->volume);
+    bench_set_number(row, "volume_truth", truth->volume / (CROWD_FRAMES * truth->rest_volume));
     bench_set_number(row, "ms", cost->all.ms);
     bench_set_number(row, "ms_step", cost->step.ms);
     bench_set_number(row, "ms_followers", cost->followers.ms);
