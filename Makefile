@@ -432,7 +432,7 @@ loops:
 arrays:
 	@awk -f tools/check/arrays.awk $(wildcard glsl/shared/*.h)
 
-SOURCES = $$(git ls-files '*.c' '*.h' '*.cpp' | grep -v '^glsl/')
+SOURCES = $$(git ls-files -co --exclude-standard '*.c' '*.h' '*.cpp' | grep -v '^glsl/')
 # A machine without clang-format-14 skips this check.
 formatted:
 	@! command -v clang-format-14 >/dev/null || clang-format-14 --dry-run -Werror $(SOURCES)

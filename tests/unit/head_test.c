@@ -155,6 +155,25 @@ static void ties_are_where_hair_is_tied(void** state)
     }
 }
 
+// Check that a tie leaves some fine hairs loose, of which none is far from the head.
+static void tie_leaves_short_hairs_loose(void** state)
+{
+    (void)state;
+    const struct head_tie tie = {{0, 1.67f, -0.11f}, {0, 0, -1}, 0.008f};
+    struct head_mesh loose, tied;
+    assert_int_equal(head_mesh_create(NULL, &loose), 0);
+    assert_int_equal(head_mesh_create(&tie, &tied), 0);
+    uint32_t band = 2 * 64 * 16, coarse = loose.triangle_count - loose.fine_count;
+    assert_int_equal(tied.triangle_count - tied.fine_count, coarse + band);
+    assert_true(tied.fine_count > loose.fine_count + 5000);
+    for (uint32_t i = loose.vertex_count; i < tied.vertex_count; ++i) {
+        const float* p = tied.positions + 3 * i;
+        assert_true(fabsf(p[0]) < 0.11f && p[1] > 1.51f && p[1] < 1.72f && fabsf(p[2]) < 0.14f);
+    }
+    head_mesh_free(&tied);
+    head_mesh_free(&loose);
+}
+
 // Check that the band is closed and faces outwards, by the volume of a torus.
 static void band_is_a_torus(void** state)
 {
@@ -380,6 +399,7 @@ int main(void)
         cmocka_unit_test(paint_follows_the_hairline),
         cmocka_unit_test(the_mesh_is_sound_and_faces_outwards),
         cmocka_unit_test(ties_are_where_hair_is_tied),
+        cmocka_unit_test(tie_leaves_short_hairs_loose),
         cmocka_unit_test(band_is_a_torus),
         cmocka_unit_test(a_cube_is_subdivided_by_the_rules),
         cmocka_unit_test(colliders_fill_the_scalp_from_inside),

@@ -102,7 +102,7 @@ int head_mesh_create(const struct head_tie* tie, struct head_mesh* out)
     uint32_t coarse = builder.mesh.triangle_count;
     head_put_brows(&builder);
     head_put_lashes(&builder);
-    head_put_fringe(&builder);
+    head_put_fringe(&builder, tie != NULL);
     builder.mesh.fine_count = builder.mesh.triangle_count - coarse;
     if (builder.failed)
         head_mesh_free(&builder.mesh);

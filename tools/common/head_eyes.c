@@ -245,9 +245,34 @@ static void put_fine_hair(struct head_builder* builder, point p, point n, uint32
              (0.004f + 0.012f * size * size) * near + 0.002f, 3.0e-5f, 3);
 }
 
-void head_put_fringe(struct head_builder* builder)
+// Return the number of loose hairs per square metre that the tie does not hold. They are short ones
+// at the nape and at the temples.
+static float wisp_density(point p)
 {
-    uint32_t seed = 11, triangles = builder->mesh.triangle_count;
+    float above = head_above_hairline(p), azimuth = fabsf(atan2f(p.x, p.z));
+    float side = head_smooth(1.9f, 2.2f, azimuth) +
+                 0.7f * head_smooth(0.95f, 1.1f, azimuth) * head_smooth(1.5f, 1.35f, azimuth);
+    return 1.6e5f * side * head_smooth(-0.005f, 0.001f, above) * head_smooth(0.008f, 0.004f, above);
+}
+
+// Add a loose hair, which leaves the skin and soon falls along it.
+static void put_wisp(struct head_builder* builder, point p, point n, uint32_t* seed)
+{
+    float size = head_random(seed), x = head_random(seed) - 0.5f, z = head_random(seed) - 0.5f;
+    point from = head_unit(head_add((point){1.2f * x, 0.1f, 1.2f * z}, n, 0.5f));
+    point to = head_unit(head_add((point){0.8f * x, -1.2f, 0.8f * z}, n, -0.25f));
+    put_hair(builder, head_add(p, n, -0.0003f), from, to, 0.012f + 0.034f * size * size, 4.0e-5f, 8);
+}
+
+// A kind of hairs along the hairline: how many there are on a square metre, and one of them.
+struct hairs {
+    float (*density)(point p);
+    void (*put)(struct head_builder* builder, point p, point n, uint32_t* seed);
+};
+
+static void put_hairs(struct head_builder* builder, const struct hairs* hairs, uint32_t triangles)
+{
+    uint32_t seed = 11;
     for (uint32_t i = 0; i < triangles && !builder->failed; ++i) {
         const uint32_t* corner = builder->mesh.triangles + 3 * (size_t)i;
         const float *a = builder->mesh.positions + 3 * corner[0],
@@ -255,14 +280,22 @@ void head_put_fringe(struct head_builder* builder)
                     *c = builder->mesh.positions + 3 * corner[2], *n = builder->mesh.normals + 3 * corner[0];
         point p = {a[0], a[1], a[2]}, normal = {n[0], n[1], n[2]};
         if (p.y < 1.54f || builder->mesh.surface[3 * (size_t)corner[0]] < 1) continue;
-        float density = fringe_density(p);
+        float density = hairs->density(p);
         if (density <= 0) continue;
         point u = head_add((point){b[0], b[1], b[2]}, p, -1), v = head_add((point){c[0], c[1], c[2]}, p, -1);
         point across = head_cross(u, v);
         float wanted = 0.5f * density * sqrtf(head_dot(across, across));
         for (; head_random(&seed) < wanted; wanted -= 1) {
             float s = sqrtf(head_random(&seed)), t = head_random(&seed);
-            put_fine_hair(builder, head_add(head_add(p, u, s * (1 - t)), v, s * t), normal, &seed);
+            hairs->put(builder, head_add(head_add(p, u, s * (1 - t)), v, s * t), normal, &seed);
         }
     }
+}
+
+void head_put_fringe(struct head_builder* builder, bool is_tied)
+{
+    static const struct hairs fringe = {fringe_density, put_fine_hair}, wisps = {wisp_density, put_wisp};
+    uint32_t triangles = builder->mesh.triangle_count;
+    put_hairs(builder, &fringe, triangles);
+    if (is_tied) put_hairs(builder, &wisps, triangles);
 }

@@ -76,7 +76,8 @@ void head_put_tie(struct head_builder* builder, const struct head_tie* tie);
 // Add brows and lashes. Brows grow on the triangles that the mesh has.
 void head_put_brows(struct head_builder* builder);
 void head_put_lashes(struct head_builder* builder);
-// Add short, fine hairs along the hairline, on the triangles that the mesh has.
-void head_put_fringe(struct head_builder* builder);
+// Add short, fine hairs along the hairline, on the triangles that the mesh has. A tie leaves some
+// longer ones loose.
+void head_put_fringe(struct head_builder* builder, bool is_tied);
 
 #endif
