@@ -106,7 +106,7 @@ static float measure_roots(const struct sample* sample)
 }
 
 // Look from each vertex of the first guide, from its root on. A step moves to the mean of the
-// guides around, which are never farther from there.
+// nearest points of all guides, which brings them nearer or leaves them as near.
 static bool find_ring(const struct sample* sample, struct head_tie* out)
 {
     float max = fminf(MAX_RADIUS, MAX_NARROW * measure_roots(sample));
