@@ -12,7 +12,7 @@
 
 layout(std430, binding = HAIR_BIND_DENSITY_LIGHT) writeonly restrict buffer node_buffer
 {
-    float light_of_node[];
+    uint light_of_node[];
 };
 
 #define SKY_WAYS 6u
@@ -51,7 +51,8 @@ float sky_along(density_grid grid, vec3 place, vec3 position, uint axis)
 
 shared uint  nodes; // Number of nodes in the list.
 shared uint  node_at[2u * HAIR_GROUP_SIZE];
-shared float sky[SKY_WAYS * HAIR_GROUP_SIZE]; // Visible fractions along each axis.
+// Visible fractions along each axis, then the number of strands on the way to the first light.
+shared float found[(SKY_WAYS + 1u) * HAIR_GROUP_SIZE];
 
 // Follow way number `which` from a node, to the sky or to a light. `at` is the place of the node.
 void follow(density_grid grid, uint node, uint at, uint which)
@@ -60,14 +61,15 @@ void follow(density_grid grid, uint node, uint at, uint which)
         vec3(node % grid.nodes.x, node / grid.nodes.x % grid.nodes.y, node / (grid.nodes.x * grid.nodes.y));
     vec3 position = rotate(draw.head, grid.lower + grid.cell * place);
     if (which < SKY_WAYS) {
-        sky[which * HAIR_GROUP_SIZE + at] = sky_along(grid, place, position, which);
+        found[which * HAIR_GROUP_SIZE + at] = sky_along(grid, place, position, which);
         return;
     }
     uint  i     = which - SKY_WAYS;
     vec4  light = draw.light[i * HAIR_LIGHT_VECTORS + HAIR_LIGHT_TO];
     float reach = light.w > 0.0 ? length(light.xyz - position) : 1e9;
-    light_of_node[node * draw.light_values + 1u + i] =
-        met_towards(grid, place, position, beam_at(i, position).to, reach);
+    float met   = met_towards(grid, place, position, beam_at(i, position).to, reach);
+    if (i == 0u) found[SKY_WAYS * HAIR_GROUP_SIZE + at] = met;
+    else light_of_node[node * node_words() + i] = floatBitsToUint(met);
 }
 
 // Find the light of the last nodes in the list, a node per thread, and shorten the list.
@@ -79,9 +81,9 @@ void find_light(density_grid grid)
         follow(grid, node_at[first + i % count], i % count, i / count);
     synchronise();
     if (own < count) {
-        float sum = 0.0;
-        for (uint i = 0u; i < SKY_WAYS; ++i) sum += sky[i * HAIR_GROUP_SIZE + own];
-        light_of_node[node_at[first + own] * draw.light_values] = sum / float(SKY_WAYS);
+        float sum = 0.0, met = draw.lights > 0u ? found[SKY_WAYS * HAIR_GROUP_SIZE + own] : 0.0;
+        for (uint i = 0u; i < SKY_WAYS; ++i) sum += found[i * HAIR_GROUP_SIZE + own];
+        light_of_node[node_at[first + own] * node_words()] = packHalf2x16(vec2(sum / float(SKY_WAYS), met));
     }
     if (own == 0u) nodes = first;
     synchronise();

@@ -24,7 +24,7 @@
 
 layout(std430, binding = HAIR_BIND_DENSITY_LIGHT) readonly restrict buffer node_buffer
 {
-    float light_of_node[];
+    uint light_of_node[];
 };
 layout(std430, binding = HAIR_BIND_LIGHT) writeonly restrict buffer light_buffer { uint light_of_vertex[]; };
 
@@ -56,9 +56,14 @@ bool find_corners(density_grid grid, vec3 place)
 // Return the interpolated value of the nodes found by find_corners().
 float around(uint which)
 {
-    float sum = 0.0;
+    uint  each = node_words(), word = max(which, 1u) - 1u;
+    float sum  = 0.0;
     for (uint k = 0u; k < 8u; ++k)
-        if (weight[k] > 0.0) sum += weight[k] * light_of_node[corner[k] * draw.light_values + which];
+        if (weight[k] > 0.0) {
+            uint bits = light_of_node[corner[k] * each + word];
+            vec2 two  = unpackHalf2x16(bits);
+            sum += weight[k] * (which == 0u ? two.x : which == 1u ? two.y : uintBitsToFloat(bits));
+        }
     return sum;
 }
 

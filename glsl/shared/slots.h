@@ -173,7 +173,8 @@
 // uint[] per node of the density grid follows. Amount of hair.
 #define HAIR_BIND_DENSITY 6
 #define HAIR_DENSITY_FIRST 8 // The box has six numbers.
-// float[] per node. Visible fraction of the sky, then the strands met on the way to each light.
+// uint[] per node. Two halves for the visible fraction of the sky and the strands met on the way to
+// the first light, then a float for each further light.
 #define HAIR_BIND_DENSITY_LIGHT 3
 #define HAIR_BIND_DENSITY_STRAND 4 // hair_vec4[] as at HAIR_BIND_CACHED_POSITION. Read-only.
 // uint[] per follower vertex. One number for the sky, then one per light. See

@@ -16,6 +16,7 @@
 #define VERTICES (FOLLOWERS * (SEGMENTS + 1))
 #define LIGHTS 2
 #define EACH (LIGHTS + 1)
+#define WORDS (EACH - 1) // Words of a node.
 
 struct fixture {
     struct hair_test_scene scene;
@@ -91,6 +92,15 @@ static void into_head(const float* p, double out[3])
     }
 }
 
+// Return a value of a node: the visible fraction of the sky, or the strands met towards a light.
+static double value_of(const uint32_t* words, uint32_t value)
+{
+    float met;
+    if (value < 2) return half_of(words[0] >> 16 * value & 0xffff);
+    memcpy(&met, &words[value - 1], sizeof met);
+    return (double)met;
+}
+
 static void look_inside(struct fixture* f)
 {
     const struct hair_self_shadow_state* own = &f->scene.hair->lighting.self_shadow;
@@ -106,17 +116,17 @@ static void look_inside(struct fixture* f)
         nodes *= f->grid.nodes[i];
     }
     uint32_t* sums = malloc(nodes * sizeof *sums);
-    float* light = malloc(nodes * EACH * sizeof *light);
+    uint32_t* light = malloc(nodes * WORDS * sizeof *light);
     f->density = calloc(nodes, sizeof *f->density);
     f->met = calloc(nodes * EACH, sizeof *f->met);
     f->position = malloc(VERTICES * sizeof *f->position);
     glGetNamedBufferSubData(own->density, sizeof box, (GLsizeiptr)(nodes * sizeof *sums), sums);
-    glGetNamedBufferSubData(own->nodes, 0, (GLsizeiptr)(nodes * EACH * sizeof *light), light);
+    glGetNamedBufferSubData(own->nodes, 0, (GLsizeiptr)(nodes * WORDS * sizeof *light), light);
     glGetNamedBufferSubData(own->light, 0, sizeof f->numbers, f->numbers);
     glGetNamedBufferSubData(geometry->vertex_cache.position, 0, VERTICES * sizeof *f->position, f->position);
     for (size_t n = 0; n < nodes; ++n) f->density[n] = sums[n] / HAIR_DENSITY_UNITS;
-    for (size_t n = 0; n < nodes * EACH; ++n)
-        f->met[n % EACH * nodes + n / EACH] = sums[n / EACH] ? (double)light[n] : 0;
+    for (size_t n = 0; n < nodes; ++n)
+        for (uint32_t i = 0; i < EACH && sums[n]; ++i) f->met[i * nodes + n] = value_of(light + WORDS * n, i);
     f->grid.density = f->density;
     free(sums);
     free(light);
