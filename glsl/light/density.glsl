@@ -27,9 +27,6 @@ layout(std430, binding = HAIR_BIND_DENSITY_STRAND) readonly restrict buffer stra
 
 #define MAX_MET 30.0 // Strands after which no light is left.
 
-// Return the words that hold the values of a node. The first word holds two.
-uint node_words() { return max(draw.light_values - 1u, 1u); }
-
 // Return whether a position is inside a collider.
 bool is_inside(vec3 from_origin)
 {

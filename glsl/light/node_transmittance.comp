@@ -69,7 +69,7 @@ void follow(density_grid grid, uint node, uint at, uint which)
     float reach = light.w > 0.0 ? length(light.xyz - position) : 1e9;
     float met   = met_towards(grid, place, position, beam_at(i, position).to, reach);
     if (i == 0u) found[SKY_WAYS * HAIR_GROUP_SIZE + at] = met;
-    else light_of_node[node * node_words() + i] = floatBitsToUint(met);
+    else light_of_node[node * HAIR_NODE_WORDS(draw.light_values) + i] = floatBitsToUint(met);
 }
 
 // Find the light of the last nodes in the list, a node per thread, and shorten the list.
@@ -83,7 +83,8 @@ void find_light(density_grid grid)
     if (own < count) {
         float sum = 0.0, met = draw.lights > 0u ? found[SKY_WAYS * HAIR_GROUP_SIZE + own] : 0.0;
         for (uint i = 0u; i < SKY_WAYS; ++i) sum += found[i * HAIR_GROUP_SIZE + own];
-        light_of_node[node_at[first + own] * node_words()] = packHalf2x16(vec2(sum / float(SKY_WAYS), met));
+        light_of_node[node_at[first + own] * HAIR_NODE_WORDS(draw.light_values)] =
+            packHalf2x16(vec2(sum / float(SKY_WAYS), met));
     }
     if (own == 0u) nodes = first;
     synchronise();

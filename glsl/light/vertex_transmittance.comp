@@ -56,7 +56,7 @@ bool find_corners(density_grid grid, vec3 place)
 // Return the interpolated value of the nodes found by find_corners().
 float around(uint which)
 {
-    uint  each = node_words(), word = max(which, 1u) - 1u;
+    uint  each = HAIR_NODE_WORDS(draw.light_values), word = max(which, 1u) - 1u;
     float sum  = 0.0;
     for (uint k = 0u; k < 8u; ++k)
         if (weight[k] > 0.0) {

@@ -14,8 +14,10 @@
 #define HAIR_FIBRE_MU 0.5 // Absorption per radius at the middle of the columns.
 
 #define HAIR_DENSITY_NODES 1048576u // Maximum nodes of the density grid.
-// Units of hair whose projected area equals one face of a cell.
+// Words that hold the light values of a node. The first word holds two.
+#define HAIR_NODE_WORDS(values) ((values) > 1u ? (values) - 1u : 1u)
 #define HAIR_SPLAT_ROUNDS 2u // Segments of each thread that fills the density grid.
+// Units of hair whose projected area equals one face of a cell.
 #define HAIR_DENSITY_UNITS 65536.0
 
 // Colours of strands.

@@ -21,12 +21,6 @@ void hair_lighting_free_self_shadow(struct hair_lighting* lighting)
     memset(own, 0, sizeof *own);
 }
 
-// Return the words that hold the values of a node. The first word holds two.
-static uint32_t count_node_words(uint32_t each)
-{
-    return each > 1 ? each - 1 : 1;
-}
-
 hair_result hair_lighting_ensure_grid(struct hair_lighting* lighting, uint32_t nodes, uint32_t each)
 {
     struct hair_gl* gl = lighting->gl;
@@ -44,7 +38,7 @@ hair_result hair_lighting_ensure_grid(struct hair_lighting* lighting, uint32_t n
     own->each = each;
     own->frame = 0;
     HAIR_TRY(hair_gl_ensure_array(gl, HAIR_GL_CATEGORY_SELF_SHADOW, "hair light of nodes",
-                                  (size_t)own->room * count_node_words(each) * sizeof(uint32_t), &own->nodes,
+                                  (size_t)own->room * HAIR_NODE_WORDS(each) * sizeof(uint32_t), &own->nodes,
                                   0, NULL));
     return hair_gl_ensure_array(gl, HAIR_GL_CATEGORY_SELF_SHADOW, "hair density",
                                 (HAIR_DENSITY_FIRST + own->room) * sizeof(uint32_t), &own->density, 0, NULL);
