@@ -67,15 +67,12 @@ float around(uint which)
     return sum;
 }
 
-// Return the number of strands met on the way to a light at the distance `reach`, m. Cells of far
-// views are large, and part of the hair within half a cell counts too.
-float met_towards(density_grid grid, vec3 position, uint light, vec3 to, float reach, float gain)
+// Return the number of strands met on the way to a light at the distance `reach`, m.
+float met_towards(density_grid grid, vec3 position, uint light, vec3 to, float reach)
 {
     vec3  place = place_in(grid, position), way = in_head(to), size = vec3(grid.nodes) - 1.0;
     vec3  left  = mix(place, size - place, greaterThan(way, vec3(0.0))) / max(abs(way), 1e-6);
     float steps = min(min(left.x, min(left.y, left.z)), reach / grid.cell), sum = 0.0;
-    const float FIT_NEAR = 0.13;
-    if (gain > 0.0) sum += FIT_NEAR * gain * density_at(grid, place + 0.25 * way);
     float k = 0.0;
     for (int i = 0; i < NEAR_STEPS; ++i) {
         k += 1.0;
@@ -118,6 +115,11 @@ void light(density_grid grid, uint vertex, vertex_range run)
     vec3 tangent = direction_or(after - before, vec3(0.0, 1.0, 0.0));
     float order  = find_order(vertex, k, max(length(after - at), length(at - before)));
     find_corners(grid, place_in(grid, at));
+    // A wide strand has the light of its visible part.
+    vec3 outer = vec3(0.0);
+    if (run.widened > 1.0) outer = find_outer_side(grid, at, tangent);
+    float wide = strand_vertex[vertex].w * run.thickness;
+    vec3  seen = at + find_seen(wide * (1.0 - 1.0 / run.widened)) * outer;
     float wider = 2.0 * strand_vertex[vertex].w * (run.widened - 1.0) / grid.cell;
     light_of_vertex[vertex * draw.light_values] = packHalf2x16(vec2(sky_past_wide(around(0u), wider), order));
     for (uint i = 0u; i < draw.lights; ++i) {
@@ -125,15 +127,15 @@ void light(density_grid grid, uint vertex, vertex_range run)
         vec3  to    = beam_at(i, at).to;
         float along = dot(tangent, to), reach = place.w > 0.0 ? length(place.xyz - at) : 1e9;
         uint  map   = map_of(i);
-        float gain  = find_gain(map, run.widened);
-        float met   = met_towards(grid, at, i, to, reach, gain) * sqrt(max(1.0 - along * along, 0.0));
+        float met   = met_towards(grid, seen, i, to, reach) * sqrt(max(1.0 - along * along, 0.0));
         float open  = exp(-met);
         if (map < uint(HAIR_SHADOW_MAPS)) {
             strand_bit s = find_bit(vertex, k, number, widened_in[map], run.thickness / run.widened);
-            vec3 to_eye = normalize(draw.eye.w > 0.0 ? draw.eye.xyz - at : draw.eye.xyz);
-            float between = dot(to, to_eye);
-            open = open_past_wide(open_in(map, i, to, s), between, widened_in[map]);
-            open = open_in_front(open, met, order, between, gain, run.cut);
+            vec3  shift   = find_seen(wide * max(1.0 - widened_in[map] / run.widened, 0.0)) * outer;
+            float between = dot(to, eye_from(at));
+            s.before += shift, s.at += shift, s.after += shift;
+            open = open_past_wide(open_in(map, i, to, s), order, between, widened_in[map]);
+            open = open_in_front(open, order, between, find_gain(map, run.widened), run.cut);
         }
         light_of_vertex[vertex * draw.light_values + 1u + i] = packHalf2x16(vec2(open, met));
     }

@@ -11,29 +11,53 @@ float find_gain(uint map, float widened)
     return 6.0 * (ratio - 1.0) / (ratio + 19.0);
 }
 
+// Return the direction from a position to the eye.
+vec3 eye_from(vec3 at) { return normalize(draw.eye.w > 0.0 ? draw.eye.xyz - at : draw.eye.xyz); }
+
+// Return the direction across a strand, as the eye sees the strand, to the side with less hair. The
+// length is 1 at the surface of dense hair, and 0 where both sides have as much hair.
+vec3 find_outer_side(density_grid grid, vec3 at, vec3 tangent)
+{
+    const float FIT_LAYER = 0.008; // m
+    vec3  side  = cross(tangent, eye_from(at)), place = place_in(grid, at);
+    side /= max(length(side), 1e-6);
+    vec3  reach = min(FIT_LAYER / grid.cell, 1.0) * in_head(side);
+    float right = density_at(grid, place + reach), left = density_at(grid, place - reach);
+    return (left - right) / max(left + right, 1e-6) * side;
+}
+
+// Return the distance from the middle of a strand to the middle of its visible part at the surface
+// of hair, m. Strands in front hide the inner side of a strand that is wider by `gained` to each
+// side, m.
+float find_seen(float gained)
+{
+    const float FIT_DEPTH = 0.001; // Largest distance, m.
+    return gained * FIT_DEPTH / (gained + FIT_DEPTH);
+}
+
 // Return the open fraction of a light for the visible part of a strand that stands for several. The
 // eye sees the front ones. `between` is the cosine of the angle between light and eye. `cut` is the
 // fraction of the segments that are left out, which cut curls off.
-float open_in_front(float open, float met, float order, float between, float gain, float cut)
+float open_in_front(float open, float order, float between, float gain, float cut)
 {
-    const float FIT_FRONT = 0.02, FIT_SEEN = 0.02, FIT_SEEN_CURLED = 0.33, FIT_WAVY = 6.0;
+    const float FIT_FRONT = -0.02, FIT_SEEN = 0.1, FIT_SEEN_CURLED = 0.3, FIT_ASIDE = 0.1;
     if (gain == 0.0) return open;
-    float curled = cut * (1.0 - order), wavy = order * (1.0 - order);
-    float power  = 1.0 - gain * (FIT_FRONT + (FIT_SEEN + FIT_SEEN_CURLED * curled) * between);
-    open         = pow(max(open, 1e-6), max(power, 0.0));
-    return open + min(FIT_WAVY * wavy * wavy * cut * gain, 1.0) * (1.0 - open) * exp(-0.5 * met);
+    float curled = 1.0 - order, side = curled * (1.0 - between * between);
+    float raised = FIT_FRONT + FIT_ASIDE * side + (FIT_SEEN + FIT_SEEN_CURLED * cut * curled) * between;
+    return pow(max(open, 1e-6), max(1.0 - gain * raised, 0.0));
 }
 
 // Return the open fraction of a light from a shadow map whose strands are `widened` times as wide.
 // Shading raises the fraction if the eye is near the light, because the visible places of a thin
 // strand are lit more often (find_visible_light). A wide strand of the map hides whole vertices,
-// and the picture itself shows which ones.
-float open_past_wide(float open, float between, float widened)
+// and the picture itself shows which ones. It hides curls too often from light from the side.
+float open_past_wide(float open, float order, float between, float widened)
 {
-    const float FIT_HIDDEN = 0.39, FIT_WIDTH = 6.0;
+    const float FIT_HIDDEN = 0.4, FIT_WIDTH = 8.0, FIT_ASIDE = 0.58;
     float wider = max(widened - 1.0, 0.0);
     if (wider == 0.0) return open;
-    return pow(max(open, 1e-6), 1.0 + FIT_HIDDEN * between * wider / (wider + FIT_WIDTH));
+    float raised = FIT_ASIDE * (1.0 - order) * (1.0 - between * between) - FIT_HIDDEN * between;
+    return pow(max(open, 1e-6), max(1.0 - raised * wider / (wider + FIT_WIDTH), 0.0));
 }
 
 // Return the visible fraction of the sky in a grid of wide strands. Light passes few wide strands

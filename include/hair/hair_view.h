@@ -134,7 +134,7 @@ typedef struct hair_lod {
     /// width, and in proportionally smaller number.
     float strand_pixels; ///< Pixels. [0.01, 100]. Default 0.25.
     /// Minimum length of a segment on the screen. Strands with shorter segments get fewer segments.
-    float segment_pixels; ///< Pixels. [0.1, 1000]. Default 4.
+    float segment_pixels; ///< Pixels. [0.1, 1000]. Default 1.5.
     /// Minimum fraction of the strands of a patch that are drawn.
     float min_strand_fraction; ///< [0.001, 1]. Default 0.05.
     /// Factor of the projected size that selects the level of detail.

@@ -7,7 +7,7 @@ BOOL(hair_lod, per_patch, true,
       "Selection by the size on the screen of each patch of strands, by the members below.")
 FLOAT(hair_lod, strand_pixels, 0.25, 0.01, 100, 0.1, 4, LOG, "pixels",
       "Minimum width of a strand on the screen.")
-FLOAT(hair_lod, segment_pixels, 4, 0.1, 1000, 1, 32, LOG, "pixels",
+FLOAT(hair_lod, segment_pixels, 1.5, 0.1, 1000, 1, 32, LOG, "pixels",
       "Minimum length of a segment on the screen.")
 FLOAT(hair_lod, min_strand_fraction, 0.05, 0.001, 1, 0.01, 1, LOG, "",
       "Minimum fraction of the strands of a patch that are drawn.")
