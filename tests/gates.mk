@@ -75,14 +75,14 @@ endif
 # Programs of `make test-full` only. Another program of each subject is in the first stage. A filter selects
 # among all programs.
 FULL := accepted air_draw attribute_look attribute_physics barrier bench bench_cases bench_fuzz \
-  capture_attributes capture_bullet capture_character capture_cut capture_output character contained \
-  context_loss context_restore curl_look cut_pieces depth_shadow dispatch divided_draws errors_range \
-  examples first_head follower_hit gallery group_look hair_body hair_body_loss hair_body_step hair_grid \
-  host_capture instance instance_far isolines lengths list_refused lives lod memory occlusion orphan outputs \
-  paths porous precompile random_calls random_lists rod_any rod_bodies rod_contact rod_heap rod_limits \
-  rod_motion rod_pins rod_shape rod_stress rod_two rod_whip save_hostile saved sdl shadow_range soak \
-  solver_stats step_failure tasks threads torture_draw torture_step view_character view_debug view_errors \
-  view_memory view_minute view_settings wind wind_coupling
+  capture_attributes capture_bullet capture_character capture_cut capture_output character contacts \
+  contained context_loss context_restore curl_look cut_pieces depth_shadow dispatch divided_draws \
+  errors_range examples first_head follower_hit gallery group_look group_physics hair_body hair_body_loss \
+  hair_body_step hair_grid host_capture instance instance_far isolines lengths list list_refused lives lod \
+  memory occlusion orphan outputs paths porous precompile random_calls random_lists rod_any rod_bodies \
+  rod_contact rod_heap rod_limits rod_motion rod_pins rod_shape rod_stress rod_two rod_whip save_hostile \
+  saved sdl shadow_range soak solver_stats step_failure tasks threads torture_draw torture_step \
+  view_character view_debug view_errors view_memory view_minute view_settings wind wind_coupling
 SECOND = $(filter $(foreach n,$(FULL),$(B)/tests/golden/$(n)_test $(B)/tests/gpu/$(n)_test $(B)/tests/hosts/$(n)_test $(B)/tests/unit/$(n)_test $(B)/tests/view/$(n)_test),$(TESTS))
 STAGE = $(if $(HAIR_TEST_FULL)$(filter),$(TESTS),$(filter-out $(SECOND),$(TESTS)))
 test-second: ## The programs that only test-full runs, with short cases; until=SECONDS starts none later than that time of `date +%s`
