@@ -16,7 +16,7 @@
 #define VERTICES (FOLLOWERS * (SEGMENTS + 1))
 #define LIGHTS 2
 #define EACH (LIGHTS + 1)
-#define WORDS (EACH - 1) // Words of a node.
+#define WORDS HAIR_NODE_WORDS(EACH) // Words of a node.
 
 struct fixture {
     struct hair_test_scene scene;
