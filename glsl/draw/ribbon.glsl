@@ -1,9 +1,10 @@
 // ribbon.glsl - the vector from the middle of a ribbon that faces the eye to its side. strand.xyz
 // is the middle from the head's origin, m. strand.w is half the width, m.
+#include "eye.glsl"
+
 vec3 side_of(vec4 strand, vec3 tangent)
 {
-    vec3  to_eye = draw.eye.w > 0.0 ? draw.eye.xyz - strand.xyz : draw.eye.xyz;
-    vec3  side   = cross(tangent, to_eye);
-    float l      = length(side);
+    vec3  side = cross(tangent, towards_eye(draw.eye, strand.xyz));
+    float l    = length(side);
     return l > 1e-12 ? side * (strand.w / l) : vec3(0.0); // Seen end on, a ribbon has no width.
 }

@@ -2,6 +2,7 @@
 // With HAIR_MOTION_OUTPUT the velocity is beside the colour.
 #version 450 core
 #include "draw_params.glsl"
+#include "eye.glsl"
 #include "draw/varyings.glsl"
 #ifdef HAIR_MOTION
 #include "draw/motion.glsl"
@@ -52,7 +53,7 @@ vec4 shade_pixel()
     hair_fragment f;
     f.position = strand_position.xyz;
     f.tangent  = normalize(strand_tangent);
-    f.to_eye   = normalize(draw.eye.w > 0.0 ? draw.eye.xyz - f.position : draw.eye.xyz);
+    f.to_eye   = normalize(towards_eye(draw.eye, f.position));
     f.t        = clamp(strand_place.x, 0.0, 1.0);
     f.uv       = strand_place.yz;
     f.across   = clamp(strand_place.w, -1.0, 1.0);

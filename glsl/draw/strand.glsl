@@ -5,6 +5,7 @@
 // First, because a file is inserted at its first mention, even in a branch that is left out.
 #include "strands/follower.glsl"
 #include "strands/packed.glsl"
+#include "eye.glsl"
 #ifdef HAIR_VERTEX_CACHE
 #include "draw/vertex_cache.glsl"
 #else
@@ -53,7 +54,7 @@ hair_fragment fragment_of(hair_follower follower, uint number, uint cached, hair
     hair_fragment f;
     f.position = point.position;
     f.tangent  = point.tangent;
-    f.to_eye   = normalize(draw.eye.w > 0.0 ? draw.eye.xyz - point.position : draw.eye.xyz);
+    f.to_eye   = normalize(towards_eye(draw.eye, point.position));
     f.t        = t;
     f.random   = random(follower.seed + 7u);
     f.seed     = follower.seed;

@@ -132,7 +132,7 @@ void light(density_grid grid, uint vertex, vertex_range run)
         if (map < uint(HAIR_SHADOW_MAPS)) {
             strand_bit s = find_bit(vertex, k, number, widened_in[map], run.thickness / run.widened);
             vec3  shift   = find_seen(wide * max(1.0 - widened_in[map] / run.widened, 0.0)) * outer;
-            float between = dot(to, eye_from(at));
+            float between = dot(to, normalize(towards_eye(draw.eye, at)));
             s.before += shift, s.at += shift, s.after += shift;
             open = open_past_wide(open_in(map, i, to, s), order, between, widened_in[map]);
             open = open_in_front(open, order, between, find_gain(map, run.widened), run.cut);

@@ -1,6 +1,7 @@
 // wide_strands.glsl - the light on strands that a level of detail draws wider, because each stands
 // for several. The constants are fitted to the light of all strands. tools/bench/README.md has the
 // errors. Strands of their own width keep their light.
+#include "eye.glsl"
 #include "light/strand_in_map.glsl"
 
 // Return how much wider the view draws a strand than the shadow map of a light does, from 0 to 6.
@@ -11,15 +12,12 @@ float find_gain(uint map, float widened)
     return 6.0 * (ratio - 1.0) / (ratio + 19.0);
 }
 
-// Return the direction from a position to the eye.
-vec3 eye_from(vec3 at) { return normalize(draw.eye.w > 0.0 ? draw.eye.xyz - at : draw.eye.xyz); }
-
 // Return the direction across a strand, as the eye sees the strand, to the side with less hair. The
 // length is 1 at the surface of dense hair, and 0 where both sides have as much hair.
 vec3 find_outer_side(density_grid grid, vec3 at, vec3 tangent)
 {
     const float FIT_LAYER = 0.008; // m
-    vec3  side  = cross(tangent, eye_from(at)), place = place_in(grid, at);
+    vec3  side  = cross(tangent, normalize(towards_eye(draw.eye, at))), place = place_in(grid, at);
     side /= max(length(side), 1e-6);
     vec3  reach = min(FIT_LAYER / grid.cell, 1.0) * in_head(side);
     float right = density_at(grid, place + reach), left = density_at(grid, place - reach);
@@ -35,15 +33,19 @@ float find_seen(float gained)
     return gained * FIT_DEPTH / (gained + FIT_DEPTH);
 }
 
+// Return how much a light shines on curls from the side, from 0 to 1. `between` is the cosine of
+// the angle between light and eye.
+float on_side_of_curls(float order, float between) { return (1.0 - order) * (1.0 - between * between); }
+
 // Return the open fraction of a light for the visible part of a strand that stands for several. The
-// eye sees the front ones. `between` is the cosine of the angle between light and eye. `cut` is the
-// fraction of the segments that are left out, which cut curls off.
+// eye sees the front ones. `cut` is the fraction of the segments that are left out, which cut curls
+// off.
 float open_in_front(float open, float order, float between, float gain, float cut)
 {
-    const float FIT_FRONT = -0.02, FIT_SEEN = 0.1, FIT_SEEN_CURLED = 0.3, FIT_ASIDE = 0.1;
+    const float FIT_FRONT = -0.02, FIT_SEEN = 0.12, FIT_SEEN_CURLED = 0.3, FIT_ASIDE = 0.1;
     if (gain == 0.0) return open;
-    float curled = 1.0 - order, side = curled * (1.0 - between * between);
-    float raised = FIT_FRONT + FIT_ASIDE * side + (FIT_SEEN + FIT_SEEN_CURLED * cut * curled) * between;
+    float raised = FIT_FRONT + FIT_ASIDE * on_side_of_curls(order, between) +
+                   (FIT_SEEN + FIT_SEEN_CURLED * cut * (1.0 - order)) * between;
     return pow(max(open, 1e-6), max(1.0 - gain * raised, 0.0));
 }
 
@@ -56,7 +58,7 @@ float open_past_wide(float open, float order, float between, float widened)
     const float FIT_HIDDEN = 0.4, FIT_WIDTH = 8.0, FIT_ASIDE = 0.58;
     float wider = max(widened - 1.0, 0.0);
     if (wider == 0.0) return open;
-    float raised = FIT_ASIDE * (1.0 - order) * (1.0 - between * between) - FIT_HIDDEN * between;
+    float raised = FIT_ASIDE * on_side_of_curls(order, between) - FIT_HIDDEN * between;
     return pow(max(open, 1e-6), max(1.0 - raised * wider / (wider + FIT_WIDTH), 0.0));
 }
 
