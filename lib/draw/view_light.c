@@ -28,12 +28,14 @@ static uint32_t count_cached_strands(struct hair_renderer* renderer, const struc
 }
 
 // Write the parameters of hair that casts shadows, also where hair is out of view or occluded.
+// All strands have places in the vertex cache.
 static void write_shadow_params(const struct hair_renderer* renderer, const struct hair_draw_plan* plan,
                                 const hair_view* view, struct hair_draw_params* out)
 {
     hair_draw_write_params(renderer, plan->head, view, out);
     out->culls = 0;
     out->head_sphere.w = 0;
+    out->cache_strands = 0;
 }
 
 // Return the nodes that the density grid needs for cells of `cell` m. The cells of hair that swings
@@ -73,13 +75,12 @@ hair_result hair_draw_ensure_self_shadow(struct hair_renderer* renderer, struct 
     if (keeps_light(renderer, plan)) return HAIR_OK;
     bool part = needs_cache_of_a_part(renderer, plan->view);
     write_shadow_params(renderer, plan, plan->view, &drawn);
-    drawn.cache_strands = part ? count_cached_strands(renderer, plan) : 0;
+    if (part) drawn.cache_strands = count_cached_strands(renderer, plan);
     all = drawn;
     if (plan->view->lod && !part) {
         hair_view whole = *plan->view;
         whole.lod = NULL; // All views of a step share the grid.
         write_shadow_params(renderer, plan, &whole, &all);
-        all.cache_strands = 0;
         drawn.origin.w = all.origin.w; // The size of the cells in the shared grid.
         drawn.grid_has_all = 1;
     }

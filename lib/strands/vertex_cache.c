@@ -89,8 +89,7 @@ static bool is_fresh(const struct hair_geometry* geometry)
 
 bool hair_geometry_has_vertex_cache(const struct hair_geometry* geometry)
 {
-    return geometry->vertex_cache.vertices == hair_geometry_count_vertices(geometry) &&
-           !geometry->vertex_cache.strands && is_fresh(geometry);
+    return geometry->vertex_cache.vertices == hair_geometry_count_vertices(geometry) && is_fresh(geometry);
 }
 
 hair_result hair_geometry_ensure_vertex_cache(struct hair_geometry* geometry,
