@@ -78,18 +78,20 @@ static float square_from_eye(const float* p)
     return head_dot(d, d);
 }
 
+#define HEM 1.15f // Height of the lower edges of the garment, m.
+
 static void the_mesh_is_sound_and_faces_outwards(void** state)
 {
     (void)state;
     struct head_mesh mesh;
     assert_int_equal(head_mesh_create(NULL, &mesh), 0);
     assert_true(mesh.triangle_count > 100000 && mesh.triangle_count < 300000);
-    uint32_t skin = 0, wet = 0, cloth = 0, hairs = 0;
+    uint32_t skin = 0, wet = 0, cloth = 0, hem = 0, hairs = 0;
     for (uint32_t i = 0; i < mesh.vertex_count; ++i) {
         const float *p = mesh.positions + 3 * i, *color = mesh.colors + 3 * i,
                     *surface = mesh.surface + 3 * i;
         point n = point_of(mesh.normals + 3 * i);
-        assert_true(fabsf(p[0]) < 0.3f && p[1] > 1.1f && p[1] < 1.74f && fabsf(p[2]) < 0.2f);
+        assert_true(fabsf(p[0]) < 0.3f && p[1] > HEM - 1e-4f && p[1] < 1.74f && fabsf(p[2]) < 0.2f);
         assert_true(fabsf(head_dot(n, n) - 1) < 1e-3f);
         for (int k = 0; k < 3; ++k) assert_true(color[k] > 0 && color[k] < 1 && surface[k] >= 0);
         assert_true(surface[2] <= 1);
@@ -99,11 +101,15 @@ static void the_mesh_is_sound_and_faces_outwards(void** state)
         if (surface[0] > 1)
             assert_true(head_above_hairline(point_of(p)) > -0.002f || head_brow(point_of(p)) > 0);
         // Cloth is blue, and skin never is. Eyes are wet.
-        cloth += surface[0] == 0 && color[0] < color[2];
+        bool is_cloth = surface[0] == 0 && color[0] < color[2];
+        cloth += is_cloth;
+        hem += is_cloth && p[1] < HEM + 1e-4f;
         wet += surface[1] > 2;
         if (surface[1] > 2) assert_true(square_from_eye(p) < 0.017f * 0.017f);
         assert_false(surface[0] > 0 && color[0] < color[2]);
     }
+    print_message("    vertices of the hem: %u\n", hem);
+    assert_true(hem > 100); // The garment ends in level edges.
     assert_true(skin > 50000 && cloth > 5000 && wet > 1000 && hairs > 10000);
     // The volume under the surface is about that of a bust of 25 kg, and positive only if triangles
     // face outwards. The surface is open below.
@@ -114,7 +120,7 @@ static void the_mesh_is_sound_and_faces_outwards(void** state)
         const float *a = mesh.positions + 3 * corner[0], *b = mesh.positions + 3 * corner[1];
         const float* c = mesh.positions + 3 * corner[2];
         // Height from the bottom, so that the missing lid has no share.
-        double y[3] = {a[1] - 1.15, b[1] - 1.15, c[1] - 1.15};
+        double y[3] = {a[1] - HEM, b[1] - HEM, c[1] - HEM};
         volume += a[0] * (y[1] * c[2] - b[2] * y[2]) + y[0] * ((double)b[2] * c[0] - (double)b[0] * c[2]) +
                   a[2] * (b[0] * y[2] - y[1] * c[0]);
     }

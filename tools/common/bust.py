@@ -19,7 +19,8 @@ from PIL import Image
 
 BODY = 13380  # vertices of the body, the first of the mesh
 SCALE = 0.1057  # metres per unit of the mesh
-BOTTOM = 1.15  # height at which the bust is cut off, m
+HEM = 1.15  # height of the hem of the garment, m
+BOTTOM = HEM - 0.07  # height of the lowest skin that the garment is draped on, m
 EYE_HEIGHT = 1.6115  # m
 MORPHS = {
     "mpfb2/targets/macrodetails/caucasian-female-young.target.gz": 0.85,
@@ -150,9 +151,39 @@ def normals_of(points, faces):
 
 
 def outside_collar(p):
-    """Return a distance that is positive where the garment is: around an upright elliptic cylinder."""
+    """Return a distance that is positive where the garment is: around an upright elliptic cylinder and below it."""
     ring = np.sqrt((p[:, 0] / 0.080) ** 2 + ((p[:, 2] + 0.023) / 0.067) ** 2)
-    return np.minimum(0.07 * (ring - 1), 1.492 - p[:, 1])
+    return np.minimum(np.maximum(0.07 * (ring - 1), 1.36 - p[:, 1]), 1.492 - p[:, 1])
+
+
+def above_hem(p):
+    """Return the height above the hem."""
+    return p[:, 1] - HEM
+
+
+def areas_of(points, faces):
+    """Return the area of the faces around each vertex."""
+    area = np.zeros(len(points))
+    for a, b, c in triangles(faces):
+        area[[a, b, c]] += np.linalg.norm(np.cross(points[b] - points[a], points[c] - points[a])) / 6
+    return area
+
+
+def blur(values, points, areas, radius):
+    """Return the means of values over the surface around each vertex, by a Gaussian weight of distance."""
+    tree, out = scipy.spatial.cKDTree(points), np.empty_like(values)
+    for i, near in enumerate(tree.query_ball_point(points, 3 * radius)):
+        weight = areas[near] * np.exp(-0.5 * ((points[near] - points[i]) ** 2).sum(1) / radius ** 2)
+        out[i] = weight @ values[near] / weight.sum()
+    return out
+
+
+def level(points, faces, weight, radius):
+    """Move vertices along smooth normals to the means of the surface around them."""
+    areas = areas_of(points, faces)
+    out = unit(blur(normals_of(points, faces), points, areas, radius))
+    height = ((blur(points, points, areas, radius) - points) * out).sum(1)
+    return points + (weight * height)[:, None] * out
 
 
 def means(points, neighbours):
@@ -172,23 +203,26 @@ def drape(skin, faces, normals):
     weight = 0.5 * inner * smooth(1.395, 1.355, base[:, 1])
     for _ in range(25):
         base = base + weight[:, None] * (means(base, neighbours) - base)
+    # Cloth spans the small shapes of the chest.
+    front = inner * smooth(1.40, 1.34, base[:, 1]) * smooth(0.03, 0.07, base[:, 2])
+    base = level(level(base, faces, front, 0.025), faces, front, 0.025)
     normals = normals_of(base, faces)
     cloth, free = base + 0.005 * normals, np.array([i not in border for i in range(len(base))])
     for _ in range(24):
         cloth = cloth + 0.6 * free[:, None] * (means(cloth, neighbours) - cloth)
         height = ((cloth - base) * normals).sum(1)
         cloth += np.maximum(0.0035 - height, 0)[:, None] * normals
-    return cloth, faces, normals
+    return level(cloth, faces, front, 0.012), faces
 
 
-def cut(cloth, faces, normals):
-    """Cut the cloth along the collar. Vertices near the collar slide onto it."""
-    side = outside_collar(cloth)
+def cut(cloth, faces, distance):
+    """Cut the cloth where a distance is 0, and keep what is beyond. Vertices near the cut slide onto it."""
+    side, normals = distance(cloth), normals_of(cloth, faces)
     side = np.where(np.abs(side) < 0.0035, 0, side)
     points, side, new, out = list(map(np.array, cloth)), list(side), {}, []
     for i in [i for i, s in enumerate(side) if s == 0]:
-        here, h = outside_collar(cloth[i:i + 1])[0], 1e-4
-        slope = np.array([(outside_collar(cloth[i:i + 1] + h * e)[0] - here) / h for e in np.eye(3)])
+        here, h = distance(cloth[i:i + 1])[0], 1e-4
+        slope = np.array([(distance(cloth[i:i + 1] + h * e)[0] - here) / h for e in np.eye(3)])
         slope -= normals[i] * (slope @ normals[i])
         points[i] = cloth[i] - here * slope / (slope @ slope)
     for face in faces:
@@ -332,8 +366,9 @@ def main(data, path):
     body = [f for f, g in zip(base.faces, base.groups) if g == "body" and p[f][:, 1].min() > BOTTOM]
     skin, skin_faces, lips, inside = compact(p, body, base.mask("lips"), base.mask("inside-mouth"))
     normals = normals_of(skin, skin_faces)
-    cloth, cloth_faces = cut(*drape(skin, skin_faces, normals))
+    cloth, cloth_faces = cut(*drape(skin, skin_faces, normals), outside_collar)
     band, band_faces = make_band(cloth, cloth_faces, skin, normals)
+    cloth, cloth_faces = cut(cloth, cloth_faces, above_hem)
     # Skin far below the garment is left out.
     skin_faces = [f for f in skin_faces if outside_collar(skin[f]).max() < 0.03]
     skin, skin_faces, lips, inside = compact(skin, skin_faces, lips, inside)
