@@ -151,7 +151,7 @@ def normals_of(points, faces):
 
 
 def outside_collar(p):
-    """Return a distance that is positive where the garment is: around an upright elliptic cylinder and below it."""
+    """Return a distance that is positive where the garment is: around and below an upright elliptic cylinder."""
     ring = np.sqrt((p[:, 0] / 0.080) ** 2 + ((p[:, 2] + 0.023) / 0.067) ** 2)
     return np.minimum(np.maximum(0.07 * (ring - 1), 1.36 - p[:, 1]), 1.492 - p[:, 1])
 
@@ -162,7 +162,7 @@ def above_hem(p):
 
 
 def areas_of(points, faces):
-    """Return the area of the faces around each vertex."""
+    """Return a third of the area of the triangles around each vertex."""
     area = np.zeros(len(points))
     for a, b, c in triangles(faces):
         area[[a, b, c]] += np.linalg.norm(np.cross(points[b] - points[a], points[c] - points[a])) / 6
@@ -170,7 +170,7 @@ def areas_of(points, faces):
 
 
 def blur(values, points, areas, radius):
-    """Return the means of values over the surface around each vertex, by a Gaussian weight of distance."""
+    """Return the means of values on the surface around each vertex, with a Gaussian weight of distance."""
     tree, out = scipy.spatial.cKDTree(points), np.empty_like(values)
     for i, near in enumerate(tree.query_ball_point(points, 3 * radius)):
         weight = areas[near] * np.exp(-0.5 * ((points[near] - points[i]) ** 2).sum(1) / radius ** 2)
