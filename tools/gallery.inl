@@ -63,7 +63,7 @@ PICTURE("Frizz on every strand", CLOSE FINE "--set look=frizzy")
 PICTURE("Wet: darker, glossier, in strings", CLOSE FINE "--set wetness=1 --set preset=wet")
 
 ROW("Wind as a fluid around the head: blue air is slower than the wind, red air is faster")
-PICTURE("Wind of 3 m/s from the left", "--scene wind --frames 24:25")
+PICTURE("Wind of 3 m/s from the left and the front", "--scene wind --frames 24:25")
 PICTURE("A fifth of a second later", "--scene wind --frames 30:31")
 PICTURE("The air", "--scene wind --show head,wind --frames 24:25")
 PICTURE("The air, a fifth of a second later", "--scene wind --show head,wind --frames 30:31")

@@ -66,7 +66,7 @@ const struct hair_builtin hair_builtin_scenes[] = {
     {"wind",
      "{'style': 'long', 'motion': 'still', 'settle': 0.5, 'frames': 150, 'picture': 24,"
      " 'camera': {'eye': [0.3, 1.6, 1.7], 'target': [0.13, 1.575, 0.0], 'fov': 22},"
-     " 'wind': {'velocity': [3, 0, 0], 'model': 'fluid', 'fluid.grid_size': 1, 'turbulence.intensity': "
+     " 'wind': {'velocity': [2.6, 0, -1.5], 'model': 'fluid', 'fluid.grid_size': 1, 'turbulence.intensity': "
      "0.4, 'turbulence.length': 0.25}," LIGHTS "'settings': {" SETTINGS
      ", 'drag': 0.5, 'shape.frequency_root': 3, 'shape.frequency_tip': 0.3}}"},
     {NULL, NULL},
