@@ -151,7 +151,7 @@ def normals_of(points, faces):
 
 
 def outside_collar(p):
-    """Return a distance that is positive where the garment is: around and below an upright elliptic cylinder."""
+    """Return a distance that is positive around and below an upright elliptic cylinder, at the garment."""
     ring = np.sqrt((p[:, 0] / 0.080) ** 2 + ((p[:, 2] + 0.023) / 0.067) ** 2)
     return np.minimum(np.maximum(0.07 * (ring - 1), 1.36 - p[:, 1]), 1.492 - p[:, 1])
 
@@ -190,9 +190,9 @@ def means(points, neighbours):
     return np.array([points[list(n)].mean(0) for n in neighbours])
 
 
-def drape(skin, faces, normals):
+def drape(skin, faces):
     """Return the cloth before it is cut: the skin below, smoothed and lifted by some millimetres."""
-    base, faces, normals = compact(skin, [f for f in faces if outside_collar(skin[f]).max() > -0.02], normals)
+    base, faces = compact(skin, [f for f in faces if outside_collar(skin[f]).max() > -0.02])
     neighbours, count = [set() for _ in base], {}
     for face in faces:
         for a, b in edges_of(face):
@@ -366,7 +366,7 @@ def main(data, path):
     body = [f for f, g in zip(base.faces, base.groups) if g == "body" and p[f][:, 1].min() > BOTTOM]
     skin, skin_faces, lips, inside = compact(p, body, base.mask("lips"), base.mask("inside-mouth"))
     normals = normals_of(skin, skin_faces)
-    cloth, cloth_faces = cut(*drape(skin, skin_faces, normals), outside_collar)
+    cloth, cloth_faces = cut(*drape(skin, skin_faces), outside_collar)
     band, band_faces = make_band(cloth, cloth_faces, skin, normals)
     cloth, cloth_faces = cut(cloth, cloth_faces, above_hem)
     # Skin far below the garment is left out.
