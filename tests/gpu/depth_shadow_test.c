@@ -65,6 +65,15 @@ static hair_light shine(const struct hair_test_scene* f, float turn, const hair_
     return light;
 }
 
+// Return a new shadow map.
+static GLuint make_map(void)
+{
+    GLuint map;
+    glCreateTextures(GL_TEXTURE_2D, 1, &map);
+    glTextureStorage2D(map, 1, GL_DEPTH_COMPONENT32F, MAP, MAP);
+    return map;
+}
+
 // Dress a head in the built-in long haircut with the curls of a preset.
 static struct hair_test_scene start(void** state, hair_look_preset preset, uint32_t followers)
 {
@@ -115,9 +124,7 @@ static void light_is_near_that_of_counted_strands(void** state)
     static const double limit[3] = {0.25, 0.28, 0.3}, sky_limit = 0.25;
     for (int i = 0; i < 2; ++i) {
         struct hair_test_scene f = start(state, presets[i], FOLLOWERS);
-        GLuint map;
-        glCreateTextures(GL_TEXTURE_2D, 1, &map);
-        glTextureStorage2D(map, 1, GL_DEPTH_COMPONENT32F, MAP, MAP);
+        GLuint map = make_map();
         for (int k = 0; k < 3; ++k) {
             hair_light sun = shine(&f, 1.5707963f * (float)k, NULL, map);
             double lit = brightness(&f, HAIR_SELF_SHADOW_DEPTH, &sun, NULL, 0);
@@ -147,9 +154,7 @@ static void level_of_detail_keeps_light(void** state)
     for (int i = 0; i < 2; ++i) {
         struct hair_test_scene f = start(state, presets[i], MANY);
         hair_lod lod[2] = {hair_lod_default(), hair_lod_default()};
-        GLuint map;
-        glCreateTextures(GL_TEXTURE_2D, 1, &map);
-        glTextureStorage2D(map, 1, GL_DEPTH_COMPONENT32F, MAP, MAP);
+        GLuint map = make_map();
         lod[0].strand_fraction = 0.3f, lod[0].per_patch = false;
         lod[1].importance = 2, lod[1].segment_pixels = 0.1f;
         for (int k = 0; k < 3; ++k) {
@@ -189,9 +194,7 @@ static void a_twentieth_of_the_strands_keeps_light(void** state)
     static const double limit[2] = {0.04, 0.05}; // Maximum relative differences.
     struct hair_test_scene f = start_black(state);
     hair_lod lod = hair_lod_default();
-    GLuint map;
-    glCreateTextures(GL_TEXTURE_2D, 1, &map);
-    glTextureStorage2D(map, 1, GL_DEPTH_COMPONENT32F, MAP, MAP);
+    GLuint map = make_map();
     lod.strand_fraction = 0.05f, lod.per_patch = false;
     for (int k = 0; k < 2; ++k) {
         double light[2];
@@ -216,9 +219,7 @@ static void wide_strands_have_the_light_of_their_outer_side(void** state)
     static const float importances[2] = {1, 0.7f};
     struct hair_test_scene f = start_black(state);
     hair_lod lod = hair_lod_default();
-    GLuint map;
-    glCreateTextures(GL_TEXTURE_2D, 1, &map);
-    glTextureStorage2D(map, 1, GL_DEPTH_COMPONENT32F, MAP, MAP);
+    GLuint map = make_map();
     for (int k = 0; k < 2; ++k) {
         hair_light sun = shine(&f, 3.1415927f, NULL, map);
         double expected = brightness(&f, HAIR_SELF_SHADOW_STRANDS, &sun, NULL, 0);
@@ -282,8 +283,7 @@ static void hair_is_lit_where_its_map_has_it(void** state)
     for (int k = 0; k < 3; ++k) skull.position[k] = (&f.groom->head_sphere.x)[k];
     hair_test_ok(f.test, hair_set_colliders(f.hair, &skull, 1, sizeof skull));
     hair_test_ok(f.test, hair_step(f.hair, 1e-4f));
-    glCreateTextures(GL_TEXTURE_2D, 1, &map);
-    glTextureStorage2D(map, 1, GL_DEPTH_COMPONENT32F, MAP, MAP);
+    map = make_map();
     lod.strand_pixels = 0.01f, lod.segment_pixels = 0.1f; // Draws all strands and segments.
     for (int k = 0; k < 3; ++k) {
         hair_light sun = shine(&f, 0.7853982f * (float)k, NULL, map);
