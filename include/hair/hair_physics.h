@@ -72,6 +72,8 @@ typedef struct hair_physics {
         /// Frequency of the restoring force to the rest pose at the tip.
         float frequency_tip; ///< Hz. [0, 30]. Default 1.
         /// Fraction of gravity that the rest shape balances. 1 preserves the groom under gravity.
+        /// Guides are stiffened, at most three times, until their groom is stable under 1.3 times
+        /// that gravity.
         float gravity_preload; ///< [0, 1]. Default 1.
     } shape;
     hair_root root; ///< Default HAIR_ROOT_CLAMPED.

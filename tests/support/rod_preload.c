@@ -4,7 +4,7 @@
 
 #include <string.h>
 
-#define MARGIN 1.05 // Multiple of gravity under which a pose must be stable.
+#define MARGIN 1.3 // Multiple of gravity under which a pose must be stable.
 // Minimum frequency about a pose, rad/s. The default damping of 4/s damps this frequency
 // critically.
 #define SLOWEST 2.0
