@@ -305,7 +305,7 @@ def main():
               ["Labels: drawn fraction of the strands, segments per strand. The line joins the settings that no other beats in both time and error."])
     elif len(arguments) > 2 and arguments[0] == "followers":
         write(arguments[1], [followers_panel(argument) for argument in arguments[2:]],
-              ["Numbers at points: guides. The last point of a line has every strand as a guide."])
+              ["Numbers at points: guides.", "The last point of a line has every strand as a guide."])
     else:
         sys.exit(__doc__)
 

@@ -10,25 +10,54 @@
 #include "tools/bench/scene.h"
 
 #define CROWD_KEYS 31
+#define MIN_GUIDES 16 // of a built-in haircut
 #define SHAKE 34.377f // degrees, which are 0.6 rad
 
 const char* const crowd_motion_names[CROWD_MOTIONS] = {"shake", "contact", "wind"};
 
+// Return copies of an array in a row, to be freed, or NULL without memory.
+static void* repeat(const void* array, size_t size, uint32_t copies)
+{
+    char* all = malloc(size * copies);
+    for (uint32_t i = 0; i < copies && all; ++i) memcpy(all + size * i, array, size);
+    return all;
+}
+
+// Create a groom of `copies` of each strand.
+static hair_result create_groom(hair_groom_desc* desc, uint32_t copies, hair_groom** out)
+{
+    size_t vertices = 0;
+    for (uint32_t i = 0; i < desc->strand_count; ++i) vertices += desc->strand_vertices[i];
+    float* positions = repeat(desc->positions, 3 * vertices * sizeof *positions, copies);
+    uint32_t* counts = repeat(desc->strand_vertices, desc->strand_count * sizeof *counts, copies);
+    desc->positions = positions;
+    desc->strand_vertices = counts;
+    desc->strand_count *= copies;
+    hair_result result = positions && counts ? hair_groom_create(desc, out) : HAIR_ERROR_MEMORY;
+    free(positions);
+    free(counts);
+    return result;
+}
+
 static hair_result make_groom(struct crowd* crowd)
 {
+    const struct crowd_desc* wanted = &crowd->desc;
+    uint32_t copies = wanted->copies ? wanted->copies : 1;
     hair_style_desc style = hair_style_desc_default();
     hair_groom_desc desc = hair_groom_desc_default();
     hair_asset* asset = NULL;
     style.host = desc.host = &crowd->bench->host;
-    style.style = crowd->desc.style->style;
-    style.guide_count = crowd->desc.strands;
-    style.strand_vertices = crowd->desc.style->segments + 1;
+    style.style = wanted->style->style;
+    style.guide_count = wanted->strands;
+    if (wanted->grown) style.guide_count = wanted->guides > MIN_GUIDES ? wanted->guides : MIN_GUIDES;
+    style.strand_vertices = wanted->style->segments + 1;
     hair_result result = hair_asset_generate(&style, &asset);
     if (!result) result = hair_asset_to_groom_desc(asset, &desc);
-    desc.strand_set = HAIR_STRAND_SET_FULL;
-    desc.guide_count = crowd->desc.guides;
+    desc.strand_set = wanted->grown ? HAIR_STRAND_SET_GUIDES : HAIR_STRAND_SET_FULL;
+    desc.guide_count = wanted->guides;
     desc.guide_vertices = style.strand_vertices;
-    if (!result) result = hair_groom_create(&desc, &crowd->groom);
+    desc.follower_count = wanted->strands * copies;
+    if (!result) result = create_groom(&desc, wanted->grown ? 1 : copies, &crowd->groom);
     hair_asset_destroy(asset);
     return result;
 }
@@ -37,6 +66,7 @@ static hair_result make_groom(struct crowd* crowd)
 static hair_look make_look(const struct crowd_style* style)
 {
     hair_look look = hair_look_default();
+    look.clump.interpolation = HAIR_INTERPOLATION_MULTI;
     look.strays.fraction = look.strays.tip_fraction = 0;
     look.strand.segments = style->segments;
     return look;

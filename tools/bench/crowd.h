@@ -27,6 +27,10 @@ struct crowd_desc {
     enum crowd_motion motion;
     uint32_t strands;
     uint32_t guides; // at most the number of strands
+    // Strands are grown around guides, whose positions they interpolate, and are not those of the
+    // haircut.
+    bool grown;
+    uint32_t copies; // times that each strand is given, 0 for once
     hair_solver solver;
 };
 

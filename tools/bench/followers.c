@@ -6,13 +6,36 @@
 #include <stdlib.h>
 
 #define DEEP 1e-3 // depth from which on a strand counts as inside a collider, m
+#define COPIES 16 // copies of each strand whose vertices are timed on a GPU
 #define BEYOND 5e-3 // distance from which on a strand counts as beyond the middle of the head, m
 
-static const char* const columns[] = {
-    "case",         "method",  "strands",       "guides",     "guide_fraction", "vertices",     "length",
-    "rms_error",    "rms_mm",  "max_error",     "rest_error", "motion",         "length_error", "inside",
-    "inside_truth", "crossed", "crossed_truth", "volume",     "volume_truth",   "ms",           "ms_step",
-    "ms_followers", "runs",    "front",         NULL};
+static const char* const columns[] = {"case",
+                                      "method",
+                                      "strands",
+                                      "guides",
+                                      "guide_fraction",
+                                      "vertices",
+                                      "length",
+                                      "rms_error",
+                                      "rms_mm",
+                                      "max_error",
+                                      "rest_error",
+                                      "motion",
+                                      "length_error",
+                                      "inside",
+                                      "inside_truth",
+                                      "crossed",
+                                      "crossed_truth",
+                                      "volume",
+                                      "volume_truth",
+                                      "ms",
+                                      "ms_step",
+                                      "ms_followers",
+                                      "ms_many",
+                                      "ms_many_linear",
+                                      "runs",
+                                      "front",
+                                      NULL};
 
 static const struct crowd_style styles[] = {
     {"straight", HAIR_STYLE_BOB, 32},
@@ -24,6 +47,7 @@ static const struct crowd_style styles[] = {
 
 // Denominators of the fraction of the strands that are guides.
 static const uint32_t fractions[] = {400, 100, 30, 10, 1};
+#define MANY 100 // fraction for which many strands are timed, in a shake
 #define FRACTIONS (sizeof fractions / sizeof *fractions)
 
 // Every strand simulated, frame after frame. The first frame is at rest.
@@ -165,6 +189,12 @@ struct cost {
     struct bench_times step, followers, all;
 };
 
+// Times of the vertices of many strands, ms: of their own shape, and of strands that interpolate
+// the positions of guides.
+struct many_cost {
+    double own, linear;
+};
+
 // Measure the time of a frame: of simulating the guides, and of computing the vertices of all
 // strands.
 static bool find_cost(struct crowd* crowd, struct cost* out)
@@ -192,8 +222,27 @@ static bool find_cost(struct crowd* crowd, struct cost* out)
     return true;
 }
 
+// Measure the times of the vertices of many strands.
+static bool find_many_cost(struct bench* bench, const struct crowd_desc* desc, struct many_cost* out)
+{
+    struct crowd_desc many = *desc;
+    many.copies = bench->software ? 1 : COPIES;
+    for (int grown = 0; grown < 2; ++grown) {
+        struct crowd crowd;
+        struct cost cost;
+        many.grown = grown;
+        if (!bench_crowd_make(bench, &many, &crowd)) return false;
+        bool whole = find_cost(&crowd, &cost);
+        bench_crowd_free(&crowd);
+        if (!whole) return false;
+        *(grown ? &out->linear : &out->own) = cost.followers.ms;
+    }
+    return true;
+}
+
 static void add_row(const char* name, const char* method, const struct crowd* crowd,
-                    const struct truth* truth, const struct error* error, const struct cost* cost)
+                    const struct truth* truth, const struct error* error, const struct cost* cost,
+                    const struct many_cost* many)
 {
     json_t* row = bench_rows_add(&crowd->bench->rows);
     bench_set_text(row, "case", name);
@@ -218,6 +267,10 @@ static void add_row(const char* name, const char* method, const struct crowd* cr
     bench_set_number(row, "ms", cost->all.ms);
     bench_set_number(row, "ms_step", cost->step.ms);
     bench_set_number(row, "ms_followers", cost->followers.ms);
+    if (many->own > 0) {
+        bench_set_number(row, "ms_many", many->own);
+        bench_set_number(row, "ms_many_linear", many->linear);
+    }
     bench_set_count(row, "runs", cost->all.runs);
 }
 
@@ -228,13 +281,16 @@ static void measure(struct bench* bench, const char* name, const struct crowd_de
     struct crowd crowd;
     struct error error;
     struct cost cost;
+    struct many_cost many = {0};
+    bool is_timed = desc->motion == CROWD_SHAKE && desc->guides == desc->strands / MANY;
     if (!bench_begin(bench, name, method)) return;
     if ((!truth->strands && !find_truth(bench, desc, truth)) || !bench_crowd_make(bench, desc, &crowd)) {
         bench_refuse(bench, name, method);
         return;
     }
-    if (find_error(&crowd, truth, &error) && find_cost(&crowd, &cost))
-        add_row(name, method, &crowd, truth, &error, &cost);
+    if (find_error(&crowd, truth, &error) && find_cost(&crowd, &cost) &&
+        (!is_timed || find_many_cost(bench, desc, &many)))
+        add_row(name, method, &crowd, truth, &error, &cost, &many);
     else
         bench_refuse(bench, name, method);
     bench_crowd_free(&crowd);
@@ -247,7 +303,11 @@ static void measure_scene(struct bench* bench, const struct crowd_style* style, 
     snprintf(name, sizeof name, "%s %s", crowd_motion_names[motion], style->name);
     for (size_t i = 0; i < FRACTIONS; ++i) {
         uint32_t strands = count_strands(bench), guides = strands / fractions[i];
-        struct crowd_desc desc = {style, motion, strands, guides > 1 ? guides : 1, HAIR_SOLVER_DIRECT};
+        struct crowd_desc desc = {.style = style,
+                                  .motion = motion,
+                                  .strands = strands,
+                                  .guides = guides > 1 ? guides : 1,
+                                  .solver = HAIR_SOLVER_DIRECT};
         measure(bench, name, &desc, &truth);
     }
     free_truth(&truth);
