@@ -315,7 +315,8 @@ CHARACTER := $(patsubst %,$(B)/tools/common/%.c.o,builtin camera character chara
   head_subdivide head_tie motion obj scene scene_bullet scene_character scene_colliders scene_cuts scene_lights scene_maps scene_wind settings \
   settings_keys)
 $(B)/tests/gpu/character_test: $(CHARACTER) $(GLTF)
-$(B)/tests/unit/gltf_test $(B)/tests/unit/gltf_refused_test $(B)/tests/gpu/character_test: private TEST_LIBS := $(B)/libhair.a $(TEST_LIBS)
+$(B)/tests/gpu/every_strand_test: $(CHARACTER) $(GLTF) $(patsubst %,$(B)/tools/common/%.c.o,every_strand groups)
+$(B)/tests/unit/gltf_test $(B)/tests/unit/gltf_refused_test $(B)/tests/gpu/character_test $(B)/tests/gpu/every_strand_test: private TEST_LIBS := $(B)/libhair.a $(TEST_LIBS)
 
 # Hosts have only what users of the library have.
 $(B)/tests/hosts/%.c.o: tests/hosts/%.c

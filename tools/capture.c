@@ -8,6 +8,7 @@
 #include "tools/common/capture_outputs.h"
 #include "tools/common/character.h"
 #include "tools/common/cuts.h"
+#include "tools/common/every_strand.h"
 #include "tools/common/frame_hash.h"
 #include "tools/common/interrupt.h"
 #include "tools/common/live_colliders.h"
@@ -122,6 +123,14 @@ static int make_opengl(struct capture* capture)
     return code;
 }
 
+static int make_every_strand(struct capture* capture)
+{
+    int code = hair_every_strand_make(TOOL, &capture->host, capture->context, &capture->options.scene,
+                                      &capture->groom);
+    if (!code) hair_groom_describe(capture->groom, &capture->stats.groom);
+    return exit_for_settings(capture, code);
+}
+
 static int make_render(struct capture* capture)
 {
     const struct hair_capture_options* options = &capture->options;
@@ -166,9 +175,10 @@ static int make_hair(struct capture* capture)
     const struct hair_scene* scene = &capture->options.scene;
     hair_desc desc = scene->settings.desc;
     hair_wind wind = hair_scene_wind_of(&scene->settings, &scene->wind);
+    hair_look look = hair_every_strand_look(&scene->settings);
     desc.label = capture->options.name;
     desc.physics = &scene->settings.physics;
-    desc.look = &scene->settings.look;
+    desc.look = &look;
     pose_at(capture, 0, desc.transform);
     hair_result result = hair_create(capture->context, capture->groom, &desc, &capture->hair);
     if (!result) result = hair_groups_apply(capture->hair, &scene->settings, NULL);
@@ -309,6 +319,7 @@ static int make(struct capture* capture)
     int code = make_character(capture);
     if (!code) code = make_groom(capture);
     if (!code) code = make_opengl(capture);
+    if (!code) code = make_every_strand(capture);
     if (!code) code = make_render(capture);
     if (!code)
         code = hair_world_create(TOOL, capture->options.name, &capture->options.scene, &capture->host,

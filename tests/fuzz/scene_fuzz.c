@@ -29,6 +29,7 @@ static void add_settings(uint64_t* hash, const struct hair_scene* scene)
     struct hair_setting setting;
     hair_fuzz_add(hash, settings->has_lod);
     hair_fuzz_add(hash, settings->hides);
+    hair_fuzz_add(hash, settings->simulates_all);
     for (size_t at = 0; hair_setting_next(&at, &setting);) {
         size_t size;
         const char* value = hair_setting_bytes(&setting, settings, &size);

@@ -40,6 +40,13 @@ static void culling_behind_the_head_keeps_the_picture(void** state)
            "done");
 }
 
+static void every_strand_is_a_guide_on_demand(void** state)
+{
+    (void)state;
+    expect(0, "$T --style bob " FEW " --guides 32 --frames 0:2 --set every_strand=on --stats -",
+           "\"guides\": 300");
+}
+
 static void every_number_of_the_physics_can_be_set(void** state)
 {
     (void)state;
@@ -249,6 +256,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(help_and_version_are_printed_on_the_standard_output),
         cmocka_unit_test(culling_behind_the_head_keeps_the_picture),
+        cmocka_unit_test(every_strand_is_a_guide_on_demand),
         cmocka_unit_test(every_number_of_the_physics_can_be_set),
         cmocka_unit_test(shown_layers_are_those_of_the_show_option),
         cmocka_unit_test(wind_of_a_scene_moves_hair_and_can_be_shown),

@@ -87,6 +87,9 @@ static void settings_of_the_tools_have_their_own_values(void** state)
     assert_true(hair_settings_set("test", &settings, "hide", "off"));
     assert_false(settings.hides);
     assert_false(hair_settings_set("test", &settings, "hide", "2"));
+    assert_false(settings.simulates_all);
+    assert_true(hair_settings_set("test", &settings, "every_strand", "on"));
+    assert_true(settings.simulates_all);
     for (size_t i = 0; i < sizeof extras / sizeof *extras; ++i)
         for (int k = 0; extras[i].preset && extras[i].preset(k); ++k)
             assert_true(hair_settings_set("test", &settings, extras[i].key, extras[i].preset(k)));

@@ -42,7 +42,8 @@ static const char whole[] =
     " \"background\": {\"centre\": [0.2, 0.1, 0.1], \"edge\": [0, 0.1, 0]}, \"exposure\": 1.25, \"settle\": "
     "0.1,"
     " \"fps\": 24, \"frames\": 12, \"picture\": 3, \"size\": [64, 36], \"show\": \"guides\","
-    " \"settings\": {\"guides\": 16, \"followers\": 100, \"seed\": 3, \"lod\": \"on\", \"hide\": \"on\","
+    " \"settings\": {\"guides\": 16, \"followers\": 100, \"seed\": 3, \"lod\": \"on\", \"hide\": \"on\", "
+    "\"every_strand\": \"on\","
     " \"strand.taper\": \"1,0.98765432,0.9,0.8,0.71234567,0.61234567,0.51234567,0.41234567\", \"gravity.y\": "
     "-1.6, \"groups.0.tip_mass\": 0.5, \"groups.0.color.enabled\": \"on\"}}";
 
@@ -57,10 +58,11 @@ static const char cube[] = "v 0 0 0\nv 0.1 0 0\nv 0 0.1 0\nv 0 0 0.1\nf 1 3 2\nf
 
 // Words that the saved file of `whole` must contain, because drawing guides does not show all.
 static const char* const kept[] = {
-    "maps",     "thickness",    "attributes", "range",     "motion",   "pivot",    "pose", "fov",   "lights",
-    "spot",     "inner_angle",  "sources",    "colliders", "rounding", "friction", "spin", "stays", "centre",
-    "exposure", "settle",       "fps",        "frames",    "picture",  "size",     "show", "seed",  "lod",
-    "hide",     "strand.taper", "gravity.y",  "ambient.g", "tip_mass", "0.color"};
+    "maps",         "thickness",    "attributes", "range",       "motion",   "pivot",     "pose",
+    "fov",          "lights",       "spot",       "inner_angle", "sources",  "colliders", "rounding",
+    "friction",     "spin",         "stays",      "centre",      "exposure", "settle",    "fps",
+    "frames",       "picture",      "size",       "show",        "seed",     "lod",       "hide",
+    "every_strand", "strand.taper", "gravity.y",  "ambient.g",   "tip_mass", "0.color"};
 
 // Scenes are saved, dropped on the window, and saved again. Captures of both files must be equal.
 static void saved_scenes_load_into_equal_scenes(void** state)

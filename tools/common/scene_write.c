@@ -289,6 +289,7 @@ static void put_settings(json_t* root, const struct hair_scene* scene, struct ha
     }
     put_switch(settings, "lod", values.has_lod, usual->settings.has_lod);
     put_switch(settings, "hide", values.hides, usual->settings.hides);
+    put_switch(settings, "every_strand", values.simulates_all, usual->settings.simulates_all);
     put_object(root, "settings", settings);
 }
 

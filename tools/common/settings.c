@@ -62,6 +62,8 @@ static const struct extra extras[] = {
     {"fit_curl", "File whose first strand is a turn of the curl, 1 mm to 10 m long.", NULL, 0},
     {"lod", "Level of detail, as the members of lod say.", NULL, offsetof(struct hair_settings, has_lod)},
     {"hide", "Occlusion culling of hair behind the head.", NULL, offsetof(struct hair_settings, hides)},
+    {"every_strand", "Simulation of all strands that are drawn.", NULL,
+     offsetof(struct hair_settings, simulates_all)},
 };
 
 static const struct extra* find_extra(const char* key)

@@ -33,6 +33,7 @@ struct hair_settings {
     struct hair_group_settings groups[HAIR_MAX_STRAND_GROUPS];
     bool has_lod; // enables level of detail in views
     bool hides; // enables occlusion culling by the head, which is drawn before the hair
+    bool simulates_all; // makes guides of all strands
 };
 
 struct hair_settings hair_settings_default(void);

@@ -10,6 +10,7 @@ extern "C" {
 #include "tools/common/camera.h"
 #include "tools/common/character.h"
 #include "tools/common/cuts.h"
+#include "tools/common/every_strand.h"
 #include "tools/common/file.h"
 #include "tools/common/frame_writer.h"
 #include "tools/common/groom_source.h"

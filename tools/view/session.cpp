@@ -30,8 +30,8 @@ bool groom_differs(const hair_scene& a, const hair_scene& b)
            a.fur_length != b.fur_length || a.ball_radius != b.ball_radius ||
            differs(a.settings.import, b.settings.import) || differs(a.settings.style, b.settings.style) ||
            differs(a.settings.groom, b.settings.groom) || a.maps.count != b.maps.count ||
-           differs(a.maps, b.maps) || differs(a.attributes, b.attributes) ||
-           differs(a.character, b.character);
+           hair_every_strand_differs(&a.settings, &b.settings) || differs(a.maps, b.maps) ||
+           differs(a.attributes, b.attributes) || differs(a.character, b.character);
 }
 
 // Set what depends on the size of the haircut.
@@ -112,9 +112,10 @@ hair_result create_hair(view_session& session, hair_scene& scene, hair_groom* gr
 {
     hair_desc desc = scene.settings.desc;
     hair_wind wind = hair_scene_wind_of(&scene.settings, &scene.wind);
+    hair_look look = hair_every_strand_look(&scene.settings);
     desc.label = session.name.c_str();
     desc.physics = &scene.settings.physics;
-    desc.look = &scene.settings.look;
+    desc.look = &look;
     hair_result result = character ? create_body(session, scene, groom, *character) : HAIR_OK;
     if (!result && !hair_character_pose_head(character, &scene.motion, (float)session.time, desc.transform))
         result = HAIR_ERROR_FILE;
@@ -158,7 +159,7 @@ int replace_hair(view_session& session, hair_scene& scene, hair_groom* groom, ha
     session.world = world;
     session.world_scene = std::move(world_scene);
     session.groom = groom;
-    session.look = scene.settings.look;
+    session.look = hair_every_strand_look(&scene.settings);
     session.info = hair_groom_info_default();
     hair_groom_describe(groom, &session.info);
     session.pins.clear();
@@ -175,9 +176,10 @@ hair_result change_hair(view_session& session, const hair_scene& scene)
     if (differs(old.settings.physics, scene.settings.physics))
         result = hair_set_physics(session.hair, &scene.settings.physics);
     if (!result && session.twin) result = hair_set_physics(session.twin, &scene.settings.physics);
+    hair_look look = hair_every_strand_look(&scene.settings);
     if (!result && differs(old.settings.look, scene.settings.look))
-        result = hair_set_look(session.hair, &scene.settings.look);
-    session.look = scene.settings.look;
+        result = hair_set_look(session.hair, &look);
+    session.look = look;
     if (!result) result = hair_groups_apply(session.hair, &scene.settings, &old.settings);
     if (!result && session.twin) result = hair_groups_apply(session.twin, &scene.settings, &old.settings);
     if (!result && (differs(old.settings.wind, scene.settings.wind) || differs(old.wind, scene.wind))) {
@@ -193,8 +195,8 @@ void restore(view_session& session, const hair_scene& scene)
 {
     hair_wind wind = hair_scene_wind_of(&session.applied->settings, &session.applied->wind);
     hair_set_physics(session.hair, &session.applied->settings.physics);
-    hair_set_look(session.hair, &session.applied->settings.look);
-    session.look = session.applied->settings.look;
+    session.look = hair_every_strand_look(&session.applied->settings);
+    hair_set_look(session.hair, &session.look);
     hair_groups_apply(session.hair, &session.applied->settings, &scene.settings);
     hair_set_wind(session.hair, &wind);
 }
@@ -209,7 +211,11 @@ int remake(view_session& session, hair_scene& scene, bool with_groom)
     code = hair_character_create(TOOL, &scene, &character);
     if (code) return code;
     code = hair_groom_source_load(TOOL, &session.host, &scene, character, &groom);
-    if (!code) return replace_hair(session, scene, groom, character);
+    if (!code) {
+        code = hair_every_strand_make(TOOL, &session.host, session.context, &scene, &groom);
+        if (!code) return replace_hair(session, scene, groom, character);
+        hair_groom_destroy(groom);
+    }
     hair_character_destroy(character);
     return code;
 }

@@ -27,7 +27,7 @@ int make_render(view_session& session, const hair_scene& scene, const hair_rende
 // Give the instance the look of a quality.
 hair_result set_look(view_session& session, const hair_scene& scene, const view_quality& quality)
 {
-    hair_look look = scene.settings.look;
+    hair_look look = hair_every_strand_look(&scene.settings);
     if (!quality.self_shadows) look.self_shadow.method = HAIR_SELF_SHADOW_DEPTH;
     if (!quality.shadows) look.followers.collision = HAIR_FOLLOWER_COLLISION_NONE;
     if (!memcmp(&session.look, &look, sizeof look)) return HAIR_OK;
