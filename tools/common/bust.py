@@ -271,7 +271,8 @@ def make_band(points, faces, skin, normals):
     profile = [[-0.010, 0.0006], [-0.0095, 0.0024], [-0.004, 0.0030], [0.001, 0.0030], [0.0040, 0.0026],
                [0.0052, 0.0010], [0.0046, -0.0010], [0.000, -0.0020]]
     band = np.concatenate([ring + up * a + out * b for a, b in profile])
-    quads = [[k * count + i, k * count + (i + 1) % count, (k + 1) * count + (i + 1) % count, (k + 1) * count + i]
+    beside = [(i + 1) % count for i in range(count)]
+    quads = [[k * count + i, k * count + beside[i], (k + 1) * count + beside[i], (k + 1) * count + i]
              for k in range(len(profile) - 1) for i in range(count)]
     q = band[quads[0]]
     inwards = np.cross(q[1] - q[0], q[3] - q[0]) @ out[0] < 0
@@ -330,14 +331,18 @@ def write(path, parts, lids):
         write_table(out, "Positions in units of 10 micrometres from (0, 1.45, 0) m.",
                     "static const int16_t bust_positions[][3]",
                     [p for part in parts for p in np.round((part[0] - [0, 1.45, 0]) * 1e5)])
-        write_table(out, "Weight of the colour of lips, and the visible fraction of the surroundings, both of 255.",
+        write_table(out,
+                    "Weight of the colour of lips, and the visible fraction of the surroundings, both of "
+                    "255.",
                     "static const uint8_t bust_paint[][2]",
-                    [(round(255 * min(a, 1)), round(255 * b)) for part in parts for a, b in zip(part[2], part[3])])
+                    [(round(255 * min(a, 1)), round(255 * b))
+                     for part in parts for a, b in zip(part[2], part[3])])
         write_table(out, "Faces of each part. A fourth corner of 65535 marks a triangle.",
                     "static const uint16_t bust_faces[][4]", rows)
         out.write("\n// First vertex, vertices, first face and faces of skin, garment and neckband.\n"
                   f"#define BUST_PARTS {{{''.join(ranges)}}}\n\n"
-                  "// Edges of the lids of the left eye from the inner to the outer corner, in m: upper, then lower.\n"
+                  "// Edges of the lids of the left eye from the inner to the outer corner, in m: upper, "
+                  "then lower.\n"
                   "const float head_lids[2][HEAD_LID_POINTS][3] = {")
         for lid in lids:
             out.write("{" + ", ".join("{%.4ff, %.4ff, %.4ff}" % tuple(p) for p in lid) + "},\n")
