@@ -18,7 +18,7 @@ static hair_result read_strands(hair_context* context, const struct hair_scene* 
     hair_result result = hair_create(context, groom, &desc, &hair);
     if (!result) result = hair_groups_apply(hair, &scene->settings, NULL);
     if (!result) result = hair_read_positions(hair, HAIR_READ_FOLLOWERS, NULL, 0, count);
-    if (!result) *positions = malloc(3 * (size_t)*count * sizeof **positions);
+    if (!result) *positions = malloc(3 * ((size_t)*count + 1) * sizeof **positions);
     if (!result && !*positions) result = HAIR_ERROR_MEMORY;
     if (!result) result = hair_read_positions(hair, HAIR_READ_FOLLOWERS, *positions, *count, count);
     hair_destroy(hair);
@@ -30,7 +30,7 @@ static hair_result make_groom(const hair_host* host, const struct hair_scene* sc
 {
     uint32_t each = scene->settings.look.strand.segments + 1;
     hair_groom_desc desc = hair_groom_desc_default();
-    uint32_t* vertices = malloc((size_t)(count / each) * sizeof *vertices);
+    uint32_t* vertices = malloc((size_t)(count / each + 1) * sizeof *vertices);
     if (!vertices) return HAIR_ERROR_MEMORY;
     for (uint32_t i = 0; i < count / each; ++i) vertices[i] = each;
     desc.host = host;
@@ -64,6 +64,7 @@ int hair_every_strand_make(const char* tool, const hair_host* host, hair_context
     hair_result result = read_strands(context, scene, *groom, &positions, &count);
     if (!result) result = make_groom(host, scene, positions, count, &all);
     free(positions);
+    if (result == HAIR_ERROR_MEMORY) hair_complain(tool, "out of memory for every strand");
     if (result) return hair_exit_for(result);
     hair_groom_destroy(*groom);
     *groom = all;
