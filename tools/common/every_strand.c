@@ -71,27 +71,31 @@ int hair_every_strand_make(const char* tool, const hair_host* host, hair_context
     return HAIR_EXIT_OK;
 }
 
+// Copy what the strands of a groom have as their shape, if every strand is simulated.
+static void copy_shape(const hair_look* from, hair_look* to)
+{
+    to->strand.length = from->strand.length;
+    to->strand.length_variation = from->strand.length_variation;
+    to->clump = from->clump;
+    to->curl = from->curl;
+    to->strays = from->strays;
+}
+
 hair_look hair_every_strand_look(const struct hair_settings* settings)
 {
     hair_look look = settings->look, plain = hair_look_default();
     if (!settings->simulates_all) return look;
-    look.strand.length = plain.strand.length;
-    look.strand.length_variation = plain.strand.length_variation;
-    look.clump = plain.clump;
-    look.clump.interpolation = HAIR_INTERPOLATION_MULTI;
-    look.curl = plain.curl;
-    look.strays = plain.strays;
-    look.strays.fraction = look.strays.tip_fraction = 0;
+    plain.clump.interpolation = HAIR_INTERPOLATION_MULTI;
+    plain.strays.fraction = plain.strays.tip_fraction = 0;
+    copy_shape(&plain, &look);
     return look;
 }
 
 bool hair_every_strand_differs(const struct hair_settings* a, const struct hair_settings* b)
 {
-    const hair_look *x = &a->look, *y = &b->look;
+    hair_look same = a->look;
     if (a->simulates_all != b->simulates_all) return true;
+    copy_shape(&b->look, &same);
     return a->simulates_all &&
-           (x->strand.segments != y->strand.segments || x->strand.length != y->strand.length ||
-            x->strand.length_variation != y->strand.length_variation ||
-            memcmp(&x->clump, &y->clump, sizeof x->clump) || memcmp(&x->curl, &y->curl, sizeof x->curl) ||
-            memcmp(&x->strays, &y->strays, sizeof x->strays));
+           (a->look.strand.segments != b->look.strand.segments || memcmp(&same, &a->look, sizeof same));
 }
