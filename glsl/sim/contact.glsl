@@ -150,6 +150,8 @@ struct outcome {
 
 outcome untouched(vec3 want) { return outcome(want, vec4(0.0, 0.0, 0.0, FREE), vec4(0.0)); }
 
+bool is_near(float depth) { return false; }
+
 // Push a displacement out of one collider by the depth, and apply its friction.
 void push_by(float factor, float depth, vec3 normal, vec3 surface, inout outcome made)
 {

@@ -86,7 +86,8 @@ uint leave_deepest(uint i, vec3 start, inout uvec2 colliders, inout uvec2 owed, 
     }
     colliders = around;
     depth -= max(was_max - granted.y, granted.x);
-    if (from == uvec2(0u) || !(depth > enough_depth || max_value > 0.5 * FARTHEST)) return 0u;
+    bool holds = depth > enough_depth || max_value > 0.5 * FARTHEST;
+    if (from == uvec2(0u) || !(holds || is_near(depth))) return 0u;
     float friction;
     if (cached) {
         touch_cached(head_moved, normal, surface, friction);
@@ -100,6 +101,7 @@ uint leave_deepest(uint i, vec3 start, inout uvec2 colliders, inout uvec2 owed, 
     set_presser(member_at(local(members), first_of(from)) & HAIR_ENTRY_NUMBER);
 #endif
     push_by(friction, depth, normal, surface, made);
+    if (!holds) return 0u;
     met |= from;
     owed &= ~from;
     if ((owed & colliders) != uvec2(0u)) return 1u;
@@ -143,12 +145,13 @@ void get_out(uint i, vec3 start, uvec2 colliders, uvec2 kept, vec3 head_moved, i
             vec3  way = made.d - head_moved, normal, surface;
             if ((kept[at.x] & at.y) != 0u || is_around(k, start + way, length(way))) {
                 float depth = depth_in_body(k, start, start + way, head_moved, granted, normal, surface);
-                if (depth > 0.0 || (kept[at.x] & at.y) != 0u) {
+                bool  holds = depth > 0.0 || (kept[at.x] & at.y) != 0u;
+                if (holds || is_near(depth)) {
                     set_presser(k);
                     push_by(BODY_POSITION(k, 1).w, depth, normal, surface, made);
-                    met[at.x] |= at.y;
-                    is_out = false;
-                    ++pushed;
+                    met[at.x] |= holds ? at.y : 0u;
+                    is_out = is_out && !holds;
+                    pushed += uint(holds);
                 }
                 around[at.x] |= at.y;
             }

@@ -70,23 +70,25 @@ void get_out(uint i, vec3 start, uint colliders, uint kept, vec3 head_moved, ino
             float was,
                 depth = depth_in(k, start, made.d, head_moved, was, normal) - max(was - granted.y, granted.x);
             // The displacement of the surface matters only in contact.
-            if (depth > 0.0 || (kept & bit) != 0u) {
+            bool holds = depth > 0.0 || (kept & bit) != 0u;
+            if (holds || is_near(depth)) {
                 surface = surface_of(k, start + made.d - head_moved, head_moved, normal);
                 set_presser(k);
                 push_by(BODY_POSITION(k, 1).w, depth, normal, surface, made);
-                met |= bit;
-                ++contacts;
+                met |= holds ? bit : 0u;
+                contacts += uint(holds);
             }
         }
 #ifdef HAIR_BODIES
         EACH_BIT(colliders & bodies()) {
             float depth =
                 depth_in_body(k, start, start + made.d - head_moved, head_moved, granted, normal, surface);
-            if (depth > 0.0 || (kept & bit) != 0u) {
+            bool holds = depth > 0.0 || (kept & bit) != 0u;
+            if (holds || is_near(depth)) {
                 set_presser(k);
                 push_by(BODY_POSITION(k, 1).w, depth, normal, surface, made);
-                met |= bit;
-                ++contacts;
+                met |= holds ? bit : 0u;
+                contacts += uint(holds);
             }
         }
 #endif

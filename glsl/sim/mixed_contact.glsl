@@ -6,6 +6,10 @@
 // each step. These follow from the forces of stiff segments, which are wild until they are solved
 // for.
 //
+// A vertex also has planes of colliders that are near but not touched. A Newton step may move the
+// vertex onto them, or release it from a plane that must hold it in the next step. Without these
+// planes, two vertices on an edge took turns, and the substep ended with one of them inside.
+//
 // A plane pushes by a spring of PUSH times the inertia of the vertex in a substep. A vertex that a
 // segment holds inside a collider has no place to go. Rigid planes would answer with unbounded
 // forces, which throw the strand about later.
@@ -24,15 +28,15 @@
 // body, the pressure builds up as fast as Picard's iteration of T' = friction T.
 #define PUSH 1000.0
 #define GRIP 3.0
-// Distance from its plane at which a pressed vertex still stays, in segments.
-#define OFF_PLANE 0.25
 #define PRESSURE_CHANGE 0.5 // Relative change of pressure that replaces it
 #define PRESSED_UNTIL 4u    // Number of Newton steps that replace pressures
+#define PLANE_STAYS 0.002   // Way of a vertex that leaves its planes as they are, in segments
 // Number of Newton steps that find planes. Later steps keep the planes, and converge.
 #define PLANES_UNTIL 4u
 
 LOCAL(vec4, plane);          // Planes of vertex i, as `outcome` has them
 LOCAL(vec4, other_plane);
+LOCAL(vec3, planes_at);      // Displacement at which the planes were found
 LOCAL(vec3, surface);        // Displacement of the surface at vertex i
 LOCAL(float, surface_friction);
 // Derivative of the displacement by the wanted displacement.
@@ -42,12 +46,15 @@ LOCAL(vec3, pressers);       // Value of `plane_pressers` at vertex i
 #endif
 LOCAL(vec3, pressing);       // Reaction that friction is measured by, m/s^2
 
-void find_planes_of(uint i, vec3 head_moved)
+// Find the planes of colliders where the chain is. A Newton step that moves vertex i little leaves
+// its planes.
+void find_planes_of(uint i, bool first, vec3 head_moved)
 {
-    vec3    pressed = of_force * local(reaction_found);
-    float   max_value    = OFF_PLANE * guide_length / float(guide_count - 1u);
-    vec3    want    = local(chain) - min(1.0, max_value / max(length(pressed), 1e-9)) * pressed;
-    outcome made = allowed(i, want, local(reachable), BITS(0u), head_moved, local(met));
+    vec3  way   = local(chain) - local(planes_at);
+    float stays = PLANE_STAYS * guide_length / float(guide_count - 1u);
+    if (!first && dot(way, way) < stays * stays) return;
+    outcome made = allowed(i, local(chain), local(reachable), BITS(0u), head_moved, local(met));
+    local(planes_at)        = local(chain);
     local(plane)            = made.plane;
     local(other_plane)      = made.other;
     local(surface)          = made.surface;
@@ -57,15 +64,14 @@ void find_planes_of(uint i, vec3 head_moved)
 #endif
 }
 
-// Find the planes of colliders where the chain is.
-void find_planes(vec3 head_moved)
+void find_planes(bool first, vec3 head_moved)
 {
     FOR_VERTICES(guide_count) {
-        local(plane) = local(other_plane) = vec4(0.0);
-        if (!LISTS_REACHING && local(reachable) != BITS(0u)) find_planes_of(i, head_moved);
+        if (first) local(plane) = local(other_plane) = vec4(0.0);
+        if (!LISTS_REACHING && local(reachable) != BITS(0u)) find_planes_of(i, first, head_moved);
     }
     if (LISTS_REACHING) {
-        EACH_REACHING { find_planes_of(i, head_moved); }
+        EACH_REACHING { find_planes_of(i, first, head_moved); }
     }
 }
 
@@ -116,13 +122,23 @@ void note_pushes(uint i, vec3 by_plane, vec3 by_other, vec3 by_friction)
     keep_pushes(i);
 }
 
+// Return a plane if vertex i presses it by the chain and the last reaction.
+vec4 pressed_plane(uint i, vec4 p)
+{
+    vec3 pressed = of_force * local(reaction_found);
+    vec3 deeper  = local(chain) - min(1.0, near_distance() / max(length(pressed), 1e-9)) * pressed;
+    return dot(p.xyz, deeper) < p.w ? p : vec4(0.0);
+}
+
 // Find the displacement that planes leave of the wanted one at vertex i. In the `first` Newton
 // step, the wanted displacement follows from forces that are not solved for yet. Only the chain
 // tells whether the vertex presses and sticks.
 void hold_vertex(uint i, bool first)
 {
-    vec3  n = local(plane).xyz, m = local(other_plane).xyz, d = local(wanted);
-    vec2  beyond = vec2(local(plane).w - dot(n, d), local(other_plane).w - dot(m, d));
+    vec4  p = first ? pressed_plane(i, local(plane)) : local(plane);
+    vec4  q = first ? pressed_plane(i, local(other_plane)) : local(other_plane);
+    vec3  n = p.xyz, m = q.xyz, d = local(wanted);
+    vec2  beyond = vec2(p.w - dot(n, d), q.w - dot(m, d));
     vec2  by = pushes_of(dot(n, m), beyond, m != vec3(0.0), first);
     vec3  push = by.x * n + by.y * m;
     local(reaction_found) = vec3(0.0);
@@ -177,7 +193,7 @@ void resolve_contact(uint n, bool leads, vec3 head_moved)
     if (COLLIDERS && touching) {
         if (leads) FOR_VERTICES(guide_count) { local(chain) = local(wanted); }
         else if (n > 0u && n < PLANES_UNTIL) find_chain();
-        if (leads || n < PLANES_UNTIL) find_planes(head_moved);
+        if (leads || n < PLANES_UNTIL) find_planes(leads || n == 0u, head_moved);
         if (n < PRESSED_UNTIL) renew_pressure(n == 0u);
     }
     hold_vertices(n == 0u && !leads);
