@@ -15,7 +15,8 @@ layout(local_size_x = HAIR_REPAIR_FOLLOWERS * HAIR_REPAIR_LANES) in;
 layout(std430, binding = HAIR_BIND_REPAIR) writeonly restrict buffer repair_buffer { uvec2 halves[]; };
 layout(std430, binding = HAIR_BIND_LIST) readonly restrict buffer list_buffer { uint list[]; };
 
-#define LENGTHS 4u        // Updates of the length.
+#define LENGTHS 4u        // Maximum updates of the length.
+#define SAME_LENGTH 1e-4  // Relative change of the length after which it is not updated again.
 // Depths up to which a strand keeps its guides and from which it is freed of them, m. The closer
 // they are, the faster a strand leaves its guides.
 #define SHALLOW 0.002
@@ -114,7 +115,9 @@ void main()
     for (uint i = 0u; i < LENGTHS; ++i) {
         place(follower, samples, slide);
         push_out(samples, slide, margin);
+        float was = slide;
         slide = clamp(slide * wanted / max(length_of(samples, slide), 1e-6), 0.5, 2.0);
+        if (abs(slide - was) < SAME_LENGTH) break;
     }
     write(number, slide);
 }

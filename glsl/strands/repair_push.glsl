@@ -31,6 +31,8 @@ shared float vertex[3 * (HAIR_REPAIR_SAMPLES + 1) * HAIR_REPAIR_FOLLOWERS];
 shared float depth[(HAIR_REPAIR_SAMPLES + 1) * HAIR_REPAIR_FOLLOWERS];
 #if HAIR_REPAIR_LANES > 1
 shared vec4 pushes[(HAIR_REPAIR_SAMPLES + 1) * HAIR_REPAIR_FOLLOWERS];
+// Four weights of each pushed vertex, by weights_at().
+shared float weights[4 * (HAIR_REPAIR_SAMPLES + 1) * HAIR_REPAIR_FOLLOWERS];
 shared uint pushed[2]; // 1 if a vertex is pushed in an even or an odd round.
 #else
 shared vec4 sums[HAIR_REPAIR_CONTROLS * HAIR_REPAIR_FOLLOWERS];
@@ -85,19 +87,27 @@ void move(int c, vec4 sum)
 bool push_once(uint round, int samples, float slide, float margin)
 {
     for (int i = 1 + lane; i <= samples; i += LANES) {
-        pushes[AT(i)] = find_push(i, slide * float(i) / float(samples), margin);
-        if (pushes[AT(i)].w > 0.0) pushed[round & 1u] = 1u;
+        float t = slide * float(i) / float(samples);
+        vec4  push = find_push(i, t, margin);
+        pushes[AT(i)] = push;
+        if (push.w > 0.0) {
+            int  k;
+            vec4 weight = weights_at(t, k);
+            for (int j = 0; j < 4; ++j) weights[4 * AT(i) + j] = weight[j];
+            pushed[round & 1u] = 1u;
+        }
     }
     synchronise();
     bool any_ = pushed[round & 1u] != 0u;
     if (gl_LocalInvocationID.x == 0u) pushed[~round & 1u] = 0u;
     for (int c = 1 + lane; c < HAIR_REPAIR_CONTROLS && any_; c += LANES) {
-        vec4 sum = vec4(0.0);
+        vec4  sum = vec4(0.0);
+        float x;
         for (int i = 1; i <= samples; ++i) {
-            int  k;
-            vec4 weight = weights_at(slide * float(i) / float(samples), k);
-            int  j      = c - k + 1;
-            if (0 <= j && j < 4) sum += contribute(weight[j], pushes[AT(i)]);
+            vec4 push = pushes[AT(i)];
+            if (push.w == 0.0) continue;
+            int j = c + 1 - spline_place(slide * float(i) / float(samples), x);
+            if (0 <= j && j < 4) sum += contribute(weights[4 * AT(i) + j], push);
         }
         move(c, sum);
     }
