@@ -1,5 +1,5 @@
 // raster_clear.comp - clearing of all samples, and of the commands that draw the tiles with hair. A
-// thread clears four numbers, because the length of the buffer is a multiple of four.
+// thread clears vectors of four numbers, because the length of the buffer is a multiple of four.
 #version 450 core
 #include "workgroup.glsl"
 #include "draw/raster_params.glsl"
@@ -19,18 +19,30 @@ layout(std430, binding = HAIR_BIND_TILE) writeonly restrict buffer tile_buffer {
 #define NONE HAIR_NOBODY
 #endif
 
-void main()
+// Return number i of the commands before anything is drawn.
+uint command_number(uint i, uint heads)
 {
-    uint i = hair_group() * HAIR_GROUP_SIZE + gl_LocalInvocationID.x;
 #ifdef HAIR_BATCH
-    uint samples = batch[0].samples, heads = batch[0].heads;
     own_head = min(i / HAIR_TILE_FIRST, heads - 1u);
-    uint first = HAIR_TILE_CORNERS * draw.first_tile;
+    uint start = HAIR_TILE_CORNERS * draw.first_tile;
 #else
-    uint samples = raster.columns * raster.rows * raster.samples, heads = 1u, first = 0u;
+    uint start = 0u;
 #endif
     uint k = i % HAIR_TILE_FIRST;
-    if (i < heads * HAIR_TILE_FIRST)
-        tile[i] = k == HAIR_TILE_INSTANCES ? 1u : k == HAIR_TILE_START ? first : 0u;
-    if (4u * i < samples * NUMBERS) nearest[i] = uvec4(NONE);
+    return k == HAIR_TILE_INSTANCES ? 1u : k == HAIR_TILE_START ? start : 0u;
+}
+
+void main()
+{
+    uint first = HAIR_CLEARED_BY_GROUP * hair_group() + gl_LocalInvocationID.x;
+#ifdef HAIR_BATCH
+    uint samples = batch[0].samples, heads = batch[0].heads;
+#else
+    uint samples = raster.columns * raster.rows * raster.samples, heads = 1u;
+#endif
+    for (uint n = 0u; n < HAIR_CLEARED_BY_GROUP; n += HAIR_GROUP_SIZE) {
+        uint i = first + n;
+        if (i < heads * HAIR_TILE_FIRST) tile[i] = command_number(i, heads);
+        if (4u * i < samples * NUMBERS) nearest[i] = uvec4(NONE);
+    }
 }

@@ -12,6 +12,7 @@
 #define HAIR_TILE_VERTICES 0u        // Index of the number of vertices.
 #define HAIR_TILE_INSTANCES 1u       // Index of the number of instances, which is 1.
 #define HAIR_TILE_START 2u           // Index of the first vertex.
+#define HAIR_CLEARED_BY_GROUP 256u    // Vectors that a work group of draw/raster_clear.comp clears.
 #define HAIR_TILE_FIRST 4u           // Index of the first tile.
 #define HAIR_TILE_CORNERS 6u         // Vertices of a tile.
 // Heads of a batch have their commands before all tiles. A tile has its head in the upper bits.

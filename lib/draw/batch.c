@@ -106,7 +106,8 @@ static void rasterise_heads(struct hair_batch* batch, const struct hair_draw_pla
     hair_gl_bind_buffers(gl, GL_SHADER_STORAGE_BUFFER, HAIR_BIND_BATCH, 1, &batch->raster.params);
     hair_gl_bind_buffers(gl, GL_SHADER_STORAGE_BUFFER, HAIR_BIND_RIBBON_POSITION, 2, batch->vertices);
     hair_gl_write_uniform(gl, batch->raster.params, size, part->head);
-    hair_draw_run(gl, HAIR_GL_RASTER_CLEAR, plan, (threads + HAIR_GROUP_SIZE - 1) / HAIR_GROUP_SIZE);
+    hair_draw_run(gl, HAIR_GL_RASTER_CLEAR, plan,
+                  (threads + HAIR_CLEARED_BY_GROUP - 1) / HAIR_CLEARED_BY_GROUP);
     hair_draw_run(gl, HAIR_GL_RASTER, plan, last->raster_end);
     if (!gl->long_atomics) {
         for (uint32_t i = 0; i < part->heads; ++i) part->head[i].raster.claims = 1;

@@ -222,7 +222,8 @@ void hair_draw_rasterise(struct hair_renderer* renderer, struct hair_draw_plan* 
     // No pass over vertices separates this draw from the one before, which may still read.
     if (plan->keeps_vertices) hair_gl_barrier(gl, GL_SHADER_STORAGE_BARRIER_BIT);
     hair_gl_write_uniform(gl, raster->params, sizeof *params, params);
-    hair_draw_run(gl, HAIR_GL_RASTER_CLEAR, plan, groups_for((numbers + 3) / 4));
+    hair_draw_run(gl, HAIR_GL_RASTER_CLEAR, plan,
+                  (uint32_t)((numbers + 4 * HAIR_CLEARED_BY_GROUP - 1) / (4 * HAIR_CLEARED_BY_GROUP)));
     hair_draw_run(gl, HAIR_GL_RASTER, plan, groups);
     if (!(plan->draw & HAIR_GL_WITH(DEPTH)) && !gl->long_atomics) {
         params->claims = 1;
