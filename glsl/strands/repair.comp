@@ -113,7 +113,8 @@ void main()
     float wanted = measure(samples, deepest);
     float margin = draw.collision_margin * smoothstep(0.0, SHALLOW, deepest);
     for (uint i = 0u; i < LENGTHS; ++i) {
-        place(follower, samples, slide);
+        // A strand that keeps its guides is where it was measured.
+        if (i > 0u || deepest > SHALLOW) place(follower, samples, slide);
         push_out(samples, slide, margin);
         float was = slide;
         slide = clamp(slide * wanted / max(length_of(samples, slide), 1e-6), 0.5, 2.0);
