@@ -1,5 +1,5 @@
-// curled_contact_test.c - curled strands that lie over edges, balls, and walls thinner than a voxel.
-// All vertices stay outside, and strands come to rest.
+// curled_contact_test.c - curled strands over edges, balls, and walls thinner than a voxel. All
+// vertices stay outside, and strands come to rest.
 #include "tests/support/live_hair.h"
 #include "tests/support/meshes.h"
 
