@@ -245,6 +245,24 @@ static void fur_stands_on_a_ball(void** state)
            "\"strands\": 2000");
 }
 
+static void fur_is_combed(void** state)
+{
+    (void)state;
+    for (int comb = 0; comb < 3; ++comb) {
+        static const char* const combs[] = {"", ", \"comb\": [0, -0.5, 0]", ", \"comb\": [2, 0, 0]"};
+        char command[256];
+        snprintf(command, sizeof command,
+                 "echo '{\"fur\": {\"strands\": 500%s}, \"motion\": \"still\"}' >$D/s.json; "
+                 "$T $D/s.json --frames 0:1 --size 64x36 --hash >$D/%d",
+                 combs[comb], comb);
+        expect(0, command, "");
+    }
+    expect(0, "cmp $D/0 $D/1", "");
+    expect(1, "cmp $D/0 $D/2", "differ");
+    expect(4, "echo '{\"fur\": {\"comb\": [0, 20, 0]}}' >$D/s.json; $T $D/s.json --hash",
+           "fur.comb[1] must be a number in [-10, 10]");
+}
+
 static int start(void** state)
 {
     (void)state;
@@ -268,6 +286,7 @@ int main(void)
         cmocka_unit_test(haircut_files_are_found_beside_their_scene_and_framed),
         cmocka_unit_test(the_unit_of_a_file_is_guessed_from_its_longest_strand),
         cmocka_unit_test(fur_stands_on_a_ball),
+        cmocka_unit_test(fur_is_combed),
     };
     return cmocka_run_group_tests(tests, start, hair_test_shell_finish);
 }

@@ -57,11 +57,10 @@ const struct hair_builtin hair_builtin_scenes[] = {
             ", " STUDIO "}"},
     {"braid", "{'style': 'braid', 'motion': 'demo', 'settle': 0.5, 'frames': 120, 'picture': 45," BEHIND
               ", " WOVEN "}"},
-    {"fur", "{'fur': {'strands': 50000, 'length': 0.03, 'ball': 0.1}, 'motion': 'shake', 'frames': 60, "
-            "'picture': 20,"
-            " 'settings': {'clump.weight': '0,0,0.03,0.09,0.16,0.23,0.28,0.3', 'strand.radius': 1e-4, "
-            "'strand.segments': 8, "
-            "'guides': 1000, 'redblack.iterations': 8, "
+    {"fur", "{'fur': {'strands': 80000, 'length': 0.03, 'comb': [1.5, -2, 0.3], 'ball': 0.1}, 'motion': "
+            "'shake', 'frames': 60, 'picture': 20, " LIGHTS "'settings': {" SHADED
+            ", 'color': 'blond', 'clump.weight': '0,0,0.03,0.09,0.16,0.23,0.28,0.3', "
+            "'strand.radius': 7e-5, 'strand.segments': 8, 'guides': 1000, 'redblack.iterations': 8, "
             "'shape.frequency_root': 8, 'shape.frequency_tip': 6}}"},
     {"wind",
      "{'style': 'long', 'motion': 'still', 'settle': 0.5, 'frames': 150, 'picture': 24,"

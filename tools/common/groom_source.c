@@ -131,8 +131,8 @@ static float noise(uint32_t x)
 }
 
 // Make strand i of the fur. Roots lie on Fibonacci's lattice, which distributes any number of
-// points evenly over a sphere. Each strand leans down and randomly. The lean increases towards the
-// tip.
+// points evenly over a sphere. Each strand leans over the ball as it is combed, and randomly. The
+// lean increases towards the tip.
 static void grow(const struct hair_scene* scene, uint32_t i, float* out)
 {
     uint32_t seed = scene->settings.groom.seed * 2654435761u + 8 * i;
@@ -140,8 +140,9 @@ static void grow(const struct hair_scene* scene, uint32_t i, float* out)
     float ring = sqrtf(1 - y * y), angle = (float)fmod(2.39996322972865332 * (double)i, 6.28318530717958648);
     float at[3] = {ring * cosf(angle), y, ring * sinf(angle)};
     float length = scene->fur_length * (1 + 0.25f * noise(seed));
-    float lean[3];
-    for (uint32_t k = 0; k < 3; ++k) lean[k] = 0.35f * noise(seed + 1 + k) - (k == 1 ? 0.5f : 0);
+    const float* comb = scene->fur_comb;
+    float lean[3], outwards = at[0] * comb[0] + at[1] * comb[1] + at[2] * comb[2];
+    for (uint32_t k = 0; k < 3; ++k) lean[k] = 0.35f * noise(seed + 1 + k) + comb[k] - outwards * at[k];
     for (int v = 0; v < FUR_VERTICES; ++v) {
         float t = (float)v / (FUR_VERTICES - 1);
         for (int k = 0; k < 3; ++k)

@@ -20,6 +20,7 @@ void hair_scene_default(struct hair_scene* scene)
                                             .head = true,
                                             .fur_strands = 50000,
                                             .fur_length = 0.03f,
+                                            .fur_comb = {0, -0.5f, 0},
                                             .ball_radius = 0.1f,
                                             .field_of_view = 27,
                                             .background = {{0.085f, 0.09f, 0.1f}, {0.018f, 0.019f, 0.022f}},
@@ -116,6 +117,7 @@ static bool read_fur(const place* json, const char* key, const json_t* value, vo
 {
     static const entry entries[] = {HAIR_COUNTS("strands", AT(fur_strands), 1, 1, 4194304),
                                     HAIR_NUMBERS("length", AT(fur_length), 1, 1e-4, 10),
+                                    HAIR_NUMBERS("comb", AT(fur_comb), 3, -10, 10),
                                     HAIR_NUMBERS("ball", AT(ball_radius), 1, 1e-3, 100), HAIR_END};
     struct hair_scene* scene = out;
     scene->subject = HAIR_SUBJECT_FUR;

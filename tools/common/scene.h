@@ -34,6 +34,7 @@ struct hair_scene {
     char groom[HAIR_SCENE_PATH]; // file of HAIR_SUBJECT_FILE
     uint32_t fur_strands; // strands of HAIR_SUBJECT_FUR, on a ball
     float fur_length; // m
+    float fur_comb[3]; // lean of its tips, as a fraction of their direction from the ball
     float ball_radius; // m, around the origin
     bool head; // draws the built-in head and its colliders
     bool head_is_said, pivot_is_said;

@@ -62,8 +62,9 @@ static void put_subject(json_t* root, const struct hair_scene* scene)
         put_groom(root, scene);
     else
         json_object_set_new(root, "fur",
-                            json_pack("{s:i, s:o, s:o}", "strands", (int)scene->fur_strands, "length",
-                                      number_of(scene->fur_length), "ball", number_of(scene->ball_radius)));
+                            json_pack("{s:i, s:o, s:o, s:o}", "strands", (int)scene->fur_strands, "length",
+                                      number_of(scene->fur_length), "comb", numbers_of(scene->fur_comb, 3),
+                                      "ball", number_of(scene->ball_radius)));
     if (scene->head_is_said || scene->head != (scene->subject == HAIR_SUBJECT_STYLE))
         json_object_set_new(root, "head", json_boolean(scene->head));
 }
