@@ -36,6 +36,8 @@ void push_by(float factor, float depth, vec3 normal, vec3 surface, inout outcome
     made.d += max(depth, 0.0) * normal;
     bool moves = made.other.xyz != vec3(0.0) && dot(normal, made.other.xyz) <= PARALLEL;
     if (is_first || dot(normal, made.plane.xyz) > PARALLEL) {
+        // The plane may be below that of a collider which the vertex touches.
+        if (depth <= 0.0 && found.w < made.plane.w && !is_first) return;
         made.plane = found;
 #ifdef HAIR_IMPULSES
         plane_pressers.x = presser;
