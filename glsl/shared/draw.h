@@ -8,11 +8,11 @@
 #define HAIR_RASTER_SMALL 256.0      // Pixels that a thread may cover of a segment.
 #define HAIR_RASTER_TILE 16          // Side of a tile, pixels. Tiles without hair are not composed.
 #define HAIR_RASTER_PIECE 32         // Pixels of a line that a thread covers at a time.
+#define HAIR_CLEARED_BY_GROUP 256u   // Vectors that a work group of draw/raster_clear.comp clears.
 // The list of tiles begins with the command that draws them. Then come their numbers.
 #define HAIR_TILE_VERTICES 0u        // Index of the number of vertices.
 #define HAIR_TILE_INSTANCES 1u       // Index of the number of instances, which is 1.
 #define HAIR_TILE_START 2u           // Index of the first vertex.
-#define HAIR_CLEARED_BY_GROUP 256u    // Vectors that a work group of draw/raster_clear.comp clears.
 #define HAIR_TILE_FIRST 4u           // Index of the first tile.
 #define HAIR_TILE_CORNERS 6u         // Vertices of a tile.
 // Heads of a batch have their commands before all tiles. A tile has its head in the upper bits.

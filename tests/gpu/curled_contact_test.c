@@ -57,18 +57,8 @@ static hair_collider collider_of(struct hair_test* test, int shape, hair_collisi
         collider.size[0] = 0.05f;
     } else {
         const float half[] = {0.002f, 0.05f, 0.1f};
-        struct hair_test_mesh wall = hair_test_box_mesh(half);
-        hair_collision_mesh_desc desc = hair_collision_mesh_desc_default();
-        desc.host = &test->host.host;
-        desc.positions = wall.positions;
-        desc.triangles = wall.triangles;
-        desc.vertex_count = wall.vertex_count;
-        desc.triangle_count = wall.triangle_count;
-        desc.voxel_size = 0.005f;
         collider.shape = HAIR_SHAPE_MESH;
-        hair_test_ok(test, hair_collision_mesh_create(&desc, mesh));
-        collider.mesh = *mesh;
-        hair_test_mesh_free(&wall);
+        collider.mesh = *mesh = hair_test_collision_mesh(test, hair_test_box_mesh(half), 40);
     }
     return collider;
 }

@@ -24,29 +24,14 @@ struct fixture {
     uint32_t random;
 };
 
-static hair_collision_mesh* mesh_of(struct hair_test* test, struct hair_test_mesh mesh)
-{
-    hair_collision_mesh* collision_mesh = NULL;
-    hair_collision_mesh_desc desc = hair_collision_mesh_desc_default();
-    desc.host = &test->host.host;
-    desc.positions = mesh.positions;
-    desc.triangles = mesh.triangles;
-    desc.vertex_count = mesh.vertex_count;
-    desc.triangle_count = mesh.triangle_count;
-    desc.resolution = 40;
-    hair_test_ok(test, hair_collision_mesh_create(&desc, &collision_mesh));
-    hair_test_mesh_free(&mesh);
-    return collision_mesh;
-}
-
 // Make overlapping colliders. Every other collider is a collision mesh.
 static void begin(struct hair_test* test, struct fixture* out)
 {
     static const float half[] = {0.05f, 0.08f, 0.03f};
     *out = (struct fixture){.test = test, .random = 3};
     out->groom = hair_test_groom(&test->host.host, hair_test_handmade_default());
-    out->meshes[0] = mesh_of(test, hair_test_ball_mesh(0.1f, 24, 48));
-    out->meshes[1] = mesh_of(test, hair_test_box_mesh(half));
+    out->meshes[0] = hair_test_collision_mesh(test, hair_test_ball_mesh(0.1f, 24, 48), 40);
+    out->meshes[1] = hair_test_collision_mesh(test, hair_test_box_mesh(half), 40);
     hair_field_create(&out->field, &test->context->sdf_pool, out->groom, VOXEL);
     for (int i = 0; i < COLLIDERS; ++i) {
         out->colliders[i] = hair_test_any_collider(&out->field.box, &head, 0.1f, &out->random);

@@ -12,21 +12,6 @@
 #define MARGIN 1e-3
 #define VOXEL 5e-3 // Default voxel of the field, in metres.
 
-static hair_collision_mesh* mesh_of(struct hair_test* test, struct hair_test_mesh mesh, uint32_t resolution)
-{
-    hair_collision_mesh* collision_mesh = NULL;
-    hair_collision_mesh_desc desc = hair_collision_mesh_desc_default();
-    desc.host = &test->host.host;
-    desc.positions = mesh.positions;
-    desc.triangles = mesh.triangles;
-    desc.vertex_count = mesh.vertex_count;
-    desc.triangle_count = mesh.triangle_count;
-    desc.resolution = resolution;
-    hair_test_ok(test, hair_collision_mesh_create(&desc, &collision_mesh));
-    hair_test_mesh_free(&mesh);
-    return collision_mesh;
-}
-
 // Return a box with these half sides. With `is_mesh` it is a collision mesh of half the size,
 // scaled by two.
 static hair_collider box_of(struct hair_test* test, int is_mesh, float x, float y, float z)
@@ -34,7 +19,7 @@ static hair_collider box_of(struct hair_test* test, int is_mesh, float x, float 
     const float half[] = {x / 2, y / 2, z / 2};
     hair_collider collider = hair_test_body(is_mesh ? HAIR_SHAPE_MESH : HAIR_SHAPE_BOX, 0, 0, 0);
     if (is_mesh) {
-        collider.mesh = mesh_of(test, hair_test_box_mesh(half), 48);
+        collider.mesh = hair_test_collision_mesh(test, hair_test_box_mesh(half), 48);
         collider.scale = 2;
     } else
         collider.size[0] = x, collider.size[1] = y, collider.size[2] = z;
@@ -45,7 +30,7 @@ static hair_collider ball_of(struct hair_test* test, int is_mesh, float radius)
 {
     hair_collider collider = hair_test_body(is_mesh ? HAIR_SHAPE_MESH : HAIR_SHAPE_SPHERE, 0, 0, 0);
     if (is_mesh)
-        collider.mesh = mesh_of(test, hair_test_ball_mesh(radius, 24, 48), 48);
+        collider.mesh = hair_test_collision_mesh(test, hair_test_ball_mesh(radius, 24, 48), 48);
     else
         collider.size[0] = radius;
     return collider;
@@ -269,7 +254,8 @@ static void hair_stays_out_of_1000_colliders_and_loads_bit_for_bit(void** state)
 {
     static hair_collider colliders[MANY];
     hair_physics physics = hair_test_loose(0.3f);
-    hair_collision_mesh* collision_mesh = mesh_of(*state, hair_test_ball_mesh(0.015f, 12, 24), 24);
+    hair_collision_mesh* collision_mesh =
+        hair_test_collision_mesh(*state, hair_test_ball_mesh(0.015f, 12, 24), 24);
     place_many(colliders, collision_mesh);
     struct hair_test_living living[2];
     size_t size = 0;

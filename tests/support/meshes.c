@@ -73,3 +73,19 @@ void hair_test_mesh_free(struct hair_test_mesh* mesh)
     free(mesh->triangles);
     memset(mesh, 0, sizeof *mesh);
 }
+
+hair_collision_mesh* hair_test_collision_mesh(struct hair_test* test, struct hair_test_mesh mesh,
+                                              uint32_t resolution)
+{
+    hair_collision_mesh* collision_mesh = NULL;
+    hair_collision_mesh_desc desc = hair_collision_mesh_desc_default();
+    desc.host = &test->host.host;
+    desc.positions = mesh.positions;
+    desc.triangles = mesh.triangles;
+    desc.vertex_count = mesh.vertex_count;
+    desc.triangle_count = mesh.triangle_count;
+    desc.resolution = resolution;
+    hair_test_ok(test, hair_collision_mesh_create(&desc, &collision_mesh));
+    hair_test_mesh_free(&mesh);
+    return collision_mesh;
+}

@@ -59,15 +59,8 @@ void hair_test_torture_add(struct hair_test_torture* t, const hair_desc* desc)
 
 void hair_test_torture_collide(struct hair_test_torture* t)
 {
-    struct hair_test_mesh ball = hair_test_ball_mesh(0.05f, 6, 8);
-    hair_collision_mesh_desc desc = hair_collision_mesh_desc_default();
     hair_collider colliders[8];
-    desc.host = &t->test->host.host;
-    desc.positions = ball.positions, desc.vertex_count = ball.vertex_count;
-    desc.triangles = ball.triangles, desc.triangle_count = ball.triangle_count;
-    desc.resolution = 8;
-    if (!t->mesh) hair_test_ok(t->test, hair_collision_mesh_create(&desc, &t->mesh));
-    hair_test_mesh_free(&ball);
+    if (!t->mesh) t->mesh = hair_test_collision_mesh(t->test, hair_test_ball_mesh(0.05f, 6, 8), 8);
     for (int i = 0; i < 8; ++i) {
         hair_collider* c = &colliders[i];
         *c = hair_collider_default();
