@@ -1,5 +1,5 @@
 // field.glsl - samples of the distance field: distance to the nearest collider, direction out of
-// it, and its number.
+// it, and its number, if the field has numbers.
 //
 // Positions and directions are relative to the head's origin, in metres along the world's axes, as
 // in all other drawing code. Outside the box, and beyond the band around colliders, the distance is
@@ -44,10 +44,10 @@ vec3 field_gradient(vec3 position)
     return rotate(field.rotation, vec3(a + b - c - d, a - b + c - d, a - b - c + d)) / (2.0 * field.lower.w);
 }
 
-// Return the index of the nearest collider in hair_set_colliders, or HAIR_NO_COLLIDER.
-uint field_collider(vec3 position)
+// Return the index in hair_set_colliders of the collider that is nearest to a place of
+// field_place(), or HAIR_NO_COLLIDER.
+uint field_collider(vec3 place)
 {
-    vec3 place = field_place(position);
     if (!field_holds(place)) return HAIR_NO_COLLIDER;
     ivec3 size = textureSize(field_collider_texture, 0);
     return texelFetch(field_collider_texture, min(ivec3(place * vec3(size)), size - 1), 0).x;

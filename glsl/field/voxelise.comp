@@ -15,7 +15,9 @@ layout(std430, binding = HAIR_BIND_BRICK_COLLIDER) readonly buffer member_buffer
 // A texture, because one driver reads storage buffers many times as slowly.
 layout(binding = HAIR_UNIT_WORK) uniform usamplerBuffer collider_texture;
 layout(binding = HAIR_IMAGE_FIELD, r16f) uniform image3D field_image;
+#ifdef HAIR_NUMBERS
 layout(binding = HAIR_IMAGE_COLLIDER, r32ui) uniform uimage3D collider_image;
+#endif
 
 hair_field_collider fetch_collider(uint i)
 {
@@ -45,7 +47,9 @@ void main()
     uint             number   = HAIR_NO_COLLIDER;
     if (own.round > 0u) {
         nearest = imageLoad(field_image, voxel).x;
-        number  = imageLoad(collider_image, voxel).x;
+#ifdef HAIR_NUMBERS
+        number = imageLoad(collider_image, voxel).x;
+#endif
     }
     for (uint i = own.first; i < own.first + own.count; ++i) {
         hair_field_collider other    = fetch_collider(member[i]);
@@ -56,5 +60,7 @@ void main()
         }
     }
     imageStore(field_image, voxel, vec4(max(nearest, -DEEPEST)));
+#ifdef HAIR_NUMBERS
     imageStore(collider_image, voxel, uvec4(number));
+#endif
 }

@@ -54,10 +54,7 @@ float find_open_fraction(vec3 middle, vec3 a, vec3 b)
 
 vec3 find_wall_velocity(vec3 place)
 {
-    vec3 in_field = box_place(place);
-    if (!field_holds(in_field)) return vec3(0.0);
-    ivec3 size   = textureSize(field_collider_texture, 0);
-    uint  number = texelFetch(field_collider_texture, min(ivec3(in_field * vec3(size)), size - 1), 0).x;
+    uint number = field_collider(box_place(place));
     if (number >= uint(motion.length())) return vec3(0.0);
     return motion[number].velocity.xyz + cross(motion[number].spin.xyz, position_of(place));
 }

@@ -77,6 +77,7 @@ hair_result hair_update_field_for_step(hair_instance* hair, const struct hair_po
 {
     const struct hair_collider_list* colliders = hair_sim_colliders(&hair->sim);
     set_doublings(hair, 0);
+    hair_field_want_numbers(&hair->field);
     return finish_update(
         hair, hair_field_update_for_step(&hair->field, colliders->collider, colliders->count, head));
 }
@@ -102,6 +103,7 @@ hair_result hair_get_field(hair_instance* hair, hair_field_info* out)
     HAIR_TRY(HAIR_COPY_OUT(&context->host, hair_field_info, &own, out));
     HAIR_TRY(hair_check_current(context));
     hair_enter(hair);
+    hair_field_want_numbers(&hair->field);
     HAIR_TRY(hair_leave(context, hair_update_field(hair)));
 
     const struct hair_field_box* box = &hair->field.box;

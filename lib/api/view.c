@@ -12,8 +12,11 @@ static hair_result ensure_programs(hair_instance* hair, struct hair_draw_plan* p
     if (view->pass == HAIR_PASS_GUIDES) return hair_gl_ensure_program(gl, HAIR_GL_GUIDES);
     if (view->pass == HAIR_PASS_WIND)
         return hair_sim_has_wind(sim) ? hair_gl_ensure_program(gl, HAIR_GL_AIR) : HAIR_OK;
-    if (colliders && (!shows || view->slice)) HAIR_TRY(hair_gl_ensure_program(gl, HAIR_GL_VOXELISE));
-    if (sim->colliders.meshes) HAIR_TRY(hair_gl_ensure_program(gl, HAIR_GL_VOXELISE_MESHES));
+    if (hair_wind_coupling_is_on(sim)) hair_field_want_numbers(&hair->field);
+    if (colliders && (!shows || view->slice))
+        HAIR_TRY(hair_gl_ensure_program(gl, hair_field_pass(&hair->field, HAIR_GL_VOXELISE)));
+    if (sim->colliders.meshes)
+        HAIR_TRY(hair_gl_ensure_program(gl, hair_field_pass(&hair->field, HAIR_GL_VOXELISE_MESHES)));
     if (shows) HAIR_TRY(hair_gl_ensure_program(gl, HAIR_GL_COLLIDERS));
     if (shows && view->slice) HAIR_TRY(hair_gl_ensure_program(gl, HAIR_GL_SLICE));
     if (shows) return HAIR_OK;

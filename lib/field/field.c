@@ -32,6 +32,7 @@ static void clear(struct hair_collider_field* field)
     *field = (struct hair_collider_field){.gl = gl,
                                           .sdf_pool = field->sdf_pool,
                                           .box = field->box,
+                                          .wants_numbers = field->wants_numbers,
                                           .writes = field->writes + 1,
                                           .stepped = field->stepped,
                                           .stepped_count = field->stepped_count,
@@ -62,8 +63,6 @@ static hair_result make_field(struct hair_collider_field* field)
     for (int i = 0; i < 3; ++i) size[i] = HAIR_BRICK * box->bricks[i];
     HAIR_TRY(hair_gl_texture_3d(gl, HAIR_GL_CATEGORY_FIELD, "hair field", GL_R16F, size, GL_LINEAR,
                                 &field->distance));
-    HAIR_TRY(hair_gl_texture_3d(gl, HAIR_GL_CATEGORY_FIELD, "hair field collider", GL_R32UI, size, GL_NEAREST,
-                                &field->number));
     HAIR_TRY(hair_gl_uniform(gl, HAIR_GL_CATEGORY_FIELD, "hair field", sizeof(struct hair_field_params),
                              &field->params));
     HAIR_TRY(hair_gl_uniform(gl, HAIR_GL_CATEGORY_FIELD, "hair field work", ALIGNMENT, &field->work));
@@ -75,6 +74,28 @@ static hair_result make_field(struct hair_collider_field* field)
         return hair_fail_memory(&gl->host, "the field");
     memset(field->dirty, 1, bricks);
     return HAIR_OK;
+}
+
+// Make the texture of numbers, which every brick must write.
+static hair_result make_numbers(struct hair_collider_field* field)
+{
+    const struct hair_field_box* box = &field->box;
+    uint32_t size[3];
+    for (int i = 0; i < 3; ++i) size[i] = HAIR_BRICK * box->bricks[i];
+    HAIR_TRY(hair_gl_texture_3d(field->gl, HAIR_GL_CATEGORY_FIELD, "hair field collider", GL_R32UI, size,
+                                GL_NEAREST, &field->number));
+    memset(field->dirty, 1, hair_field_bricks(box));
+    return HAIR_OK;
+}
+
+void hair_field_want_numbers(struct hair_collider_field* field)
+{
+    field->wants_numbers = true;
+}
+
+hair_gl_pass hair_field_pass(const struct hair_collider_field* field, hair_gl_pass pass)
+{
+    return field->wants_numbers ? hair_gl_add_features(pass, HAIR_GL_WITH(NUMBERS)) : pass;
 }
 
 // Placing -----------------------------------------------------------------------------------------
@@ -232,13 +253,15 @@ static hair_result dispatch_job(struct hair_collider_field* field, const struct 
     hair_result result = hair_gl_resize(gl, "hair field work", all, bytes, field->work);
     hair_free(&gl->host, bytes);
     HAIR_TRY(result);
-    if (plain) HAIR_TRY(hair_gl_ensure_program(gl, HAIR_GL_VOXELISE));
-    if (job->with_meshes) HAIR_TRY(hair_gl_ensure_program(gl, HAIR_GL_VOXELISE_MESHES));
+    hair_gl_pass without = hair_field_pass(field, HAIR_GL_VOXELISE),
+                 with = hair_field_pass(field, HAIR_GL_VOXELISE_MESHES);
+    if (plain) HAIR_TRY(hair_gl_ensure_program(gl, without));
+    if (job->with_meshes) HAIR_TRY(hair_gl_ensure_program(gl, with));
     hair_gl_bind_texture(gl, HAIR_UNIT_WORK, field->work_texture);
-    run_pass(field, HAIR_GL_VOXELISE, job->brick, plain, 2, at, length);
+    run_pass(field, without, job->brick, plain, 2, at, length);
     if (job->with_meshes)
         hair_gl_bind_buffers(gl, GL_SHADER_STORAGE_BUFFER, HAIR_BIND_NODE, 1, &field->sdf_pool->nodes);
-    run_pass(field, HAIR_GL_VOXELISE_MESHES, job->brick + plain, job->with_meshes, 3, at, length);
+    run_pass(field, with, job->brick + plain, job->with_meshes, 3, at, length);
     return HAIR_OK;
 }
 
@@ -253,7 +276,8 @@ static hair_result write_marked(struct hair_collider_field* field)
         if (!ran) {
             hair_gl_bind_buffers(gl, GL_UNIFORM_BUFFER, HAIR_BIND_FIELD, 1, &field->params);
             hair_gl_bind_image(gl, HAIR_IMAGE_FIELD, field->distance, true, GL_READ_WRITE, GL_R16F);
-            hair_gl_bind_image(gl, HAIR_IMAGE_COLLIDER, field->number, true, GL_READ_WRITE, GL_R32UI);
+            if (field->number)
+                hair_gl_bind_image(gl, HAIR_IMAGE_COLLIDER, field->number, true, GL_READ_WRITE, GL_R32UI);
         }
         ran = 1;
         result = dispatch_job(field, &job);
@@ -287,6 +311,7 @@ static hair_result update(struct hair_collider_field* field, const hair_collider
         write_params(field, head->rotation);
     }
     if (!field->distance) return HAIR_OK;
+    if (field->wants_numbers && !field->number) HAIR_TRY(make_numbers(field));
     if (!is_same(field->rotation, head->rotation)) write_params(field, head->rotation);
     return write_marked(field);
 }
@@ -341,7 +366,8 @@ void hair_field_bind(const struct hair_collider_field* field)
     struct hair_gl* gl = field->gl;
     hair_gl_bind_buffers(gl, GL_UNIFORM_BUFFER, HAIR_BIND_FIELD, 1, &field->params);
     hair_gl_bind_texture(gl, HAIR_UNIT_FIELD, field->distance);
-    hair_gl_bind_texture(gl, HAIR_UNIT_COLLIDER, field->number);
     hair_gl_bind_sampler(gl, HAIR_UNIT_FIELD, 0);
+    if (!field->number) return;
+    hair_gl_bind_texture(gl, HAIR_UNIT_COLLIDER, field->number);
     hair_gl_bind_sampler(gl, HAIR_UNIT_COLLIDER, 0);
 }

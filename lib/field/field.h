@@ -1,5 +1,5 @@
 // field.h - voxelised distance field of the colliders in a box of the head's frame. It holds the
-// distance to the nearest collider and its number. Colliders that move with the head do not change
+// distance to the nearest collider and, if wanted, its number. Colliders that move with the head do not change
 // it.
 //
 // Nothing is created before a collider reaches into the box. Afterwards only bricks that changed
@@ -16,7 +16,9 @@ struct hair_collider_field {
     struct hair_sdf_pool* sdf_pool; // Pool of the context.
     struct hair_field_box box;
     GLuint distance; // 3D texture, R16F, in metres. 0 if there is none.
-    GLuint number; // 3D texture, R32UI. HAIR_NO_COLLIDER where no collider is near.
+    // 3D texture, R32UI. HAIR_NO_COLLIDER where no collider is near. 0 unless the number is wanted.
+    GLuint number;
+    bool wants_numbers;
     GLuint params; // Uniform buffer.
     GLuint work; // Inputs of the last dispatch.
     GLuint work_texture; // Buffer texture of `work`.
@@ -39,6 +41,11 @@ void hair_field_set_voxel(struct hair_collider_field* field, const struct hair_g
 void hair_field_create(struct hair_collider_field* field, struct hair_sdf_pool* pool,
                        const struct hair_groom* groom, float voxel);
 void hair_field_destroy(struct hair_collider_field* field);
+
+// Let updates write the numbers of colliders too, from the next on. Fluids read them.
+void hair_field_want_numbers(struct hair_collider_field* field);
+// Return a pass that writes the field, with the features of the field.
+hair_gl_pass hair_field_pass(const struct hair_collider_field* field, hair_gl_pass pass);
 
 // Write what has changed since the last update. On failure there is no field. There may be none
 // while no collider is near.

@@ -65,6 +65,7 @@ FEATURE(FEW_GUIDES, "HAIR_FEW_GUIDES")
 FEATURE(BODIES, "HAIR_BODIES") // Some colliders are not capsules.
 FEATURE(MESHES, "HAIR_MESHES") // Some colliders are collision meshes.
 FEATURE(DEFORMING, "HAIR_DEFORMING") // Some colliders are bodies that deform.
+FEATURE(NUMBERS, "HAIR_NUMBERS") // The field has the numbers of colliders.
 FEATURE(IMPULSES, "HAIR_IMPULSES") // The impulses of colliders are recorded.
 FEATURE(HITS, "HAIR_HITS") // Some followers are inside colliders.
 FEATURE(DEPTH, "HAIR_DEPTH") // Depth without colour.
@@ -107,8 +108,8 @@ FEATURE(OCCLUSION, "HAIR_OCCLUSION") // Occlusion culling may have hidden patche
 #define RASTER_FEATURES WITH(DEPTH) | WITH(ALPHA_COVERAGE) | WITH(BATCH)
 #define DRAW_STAGES " !HAIR_LINES?draw/ribbon.geom !HAIR_DEPTH?draw/strand.frag HAIR_DEPTH?draw/depth.frag"
 
-PASS(VOXELISE, "field/voxelise", FIELD, 0, "field/voxelise.comp")
-PASS(VOXELISE_MESHES, "field/voxelise_meshes", FIELD, 0, "HAIR_MESHES=1 field/voxelise.comp")
+PASS(VOXELISE, "field/voxelise", FIELD, WITH(NUMBERS), "field/voxelise.comp")
+PASS(VOXELISE_MESHES, "field/voxelise_meshes", FIELD, WITH(NUMBERS), "HAIR_MESHES=1 field/voxelise.comp")
 PASS(BODY_UNPACK, "field/body_unpack", FIELD, 0, "field/body_unpack.comp")
 PASS(BODY_MOVED, "field/body_moved", FIELD, 0, "field/body_moved.comp")
 PASS(BODY_REACH, "field/body_reach", FIELD, 0, "field/body_reach.comp")

@@ -269,7 +269,10 @@ void hair_fluid_place(struct hair_fluid* fluid, const struct hair_fluid_now* now
 
 void hair_fluid_find_face_fractions(struct hair_fluid* fluid, const struct hair_fluid_now* now)
 {
-    if (now->field && hair_field_is_near(now->field)) hair_field_bind(now->field);
+    if (now->field && hair_field_is_near(now->field)) {
+        HAIR_ASSERT(now->field->number);
+        hair_field_bind(now->field);
+    }
     hair_fluid_run(fluid, HAIR_GL_FLUID_FACE_FRACTIONS, 0, 0, (uint32_t)hair_fluid_slots(fluid));
     if (!fluid->hair.grid.buffer) hair_fluid_coarsen(fluid);
 }

@@ -33,6 +33,7 @@ static void begin(struct hair_test* test, struct fixture* out)
     out->meshes[0] = hair_test_collision_mesh(test, hair_test_ball_mesh(0.1f, 24, 48), 40);
     out->meshes[1] = hair_test_collision_mesh(test, hair_test_box_mesh(half), 40);
     hair_field_create(&out->field, &test->context->sdf_pool, out->groom, VOXEL);
+    hair_field_want_numbers(&out->field);
     for (int i = 0; i < COLLIDERS; ++i) {
         out->colliders[i] = hair_test_any_collider(&out->field.box, &head, 0.1f, &out->random);
         if (i % 2) continue;

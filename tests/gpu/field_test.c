@@ -88,7 +88,7 @@ static void sample(struct hair_test_field_scene* f, const float (*points)[4], st
                                "    uint i    = gl_GlobalInvocationID.x;\n"
                                "    vec3 p    = point[i].xyz;\n"
                                "    found[i]  = vec4(field_gradient(p), field_distance(p));\n"
-                               "    number[i] = field_collider(p);\n"
+                               "    number[i] = field_collider(field_place(p));\n"
                                "}\n";
     struct hair_gl_source source;
     assert_int_equal(hair_gl_read_source(&f->test->host.host, NULL, "field.glsl", "", &source), HAIR_OK);

@@ -16,13 +16,14 @@ static const struct hair_pose elsewhere = {{30, -20, 10}, {0.36f, 0.48f, 0, 0.8f
 
 static uint32_t runs(struct hair_test_field_scene* f)
 {
-    return hair_test_runs(&f->test->context->gl, HAIR_GL_VOXELISE);
+    return hair_test_runs(&f->test->context->gl, hair_field_pass(&f->field, HAIR_GL_VOXELISE));
 }
 
 static void assert_as_made_at_once(struct hair_test_field_scene* f, uint32_t count)
 {
     struct hair_collider_field fresh;
     hair_field_create(&fresh, &f->test->context->sdf_pool, f->groom, HAIR_TEST_FIELD_VOXEL);
+    hair_field_want_numbers(&fresh);
     hair_test_ok(f->test, hair_field_update(&fresh, f->colliders, count, &f->head));
     struct hair_test_field a = hair_test_field_read(&f->field), b = hair_test_field_read(&fresh);
     size_t voxels = hair_test_field_count(&a);
@@ -52,6 +53,39 @@ static void updated_field_equals_a_new_field_bit_for_bit(void** state)
 }
 
 // Remove the functions of OpenGL, and check that an update without motion calls none.
+// Numbers take twice the memory of distances, and only fluids and applications read them.
+static void field_has_numbers_once_they_are_wanted(void** state)
+{
+    struct hair_test_field_scene f;
+    struct hair_collider_field own;
+    hair_test_field_begin(*state, elsewhere, &f);
+    hair_field_create(&own, &f.test->context->sdf_pool, f.groom, HAIR_TEST_FIELD_VOXEL);
+    hair_test_field_update(&f, HAIR_TEST_FIELD_COLLIDERS);
+    uint64_t before = f.test->context->gl.memory.bytes;
+    hair_test_ok(f.test, hair_field_update(&own, f.colliders, HAIR_TEST_FIELD_COLLIDERS, &f.head));
+    uint64_t without = f.test->context->gl.memory.bytes - before;
+    assert_int_equal(own.number, 0);
+    assert_true(hair_field_is_near(&own));
+    for (int round = 0; round < 3; ++round) {
+        struct hair_test_field a = hair_test_field_read(&f.field), b = hair_test_field_read(&own);
+        size_t voxels = hair_test_field_count(&a);
+        assert_memory_equal(a.distance, b.distance, voxels * sizeof *a.distance);
+        if (round) assert_memory_equal(a.number, b.number, voxels * sizeof *a.number);
+        hair_test_field_free(&a);
+        hair_test_field_free(&b);
+        hair_field_want_numbers(&own);
+        if (round) f.colliders[3].position[1] += 0.02f;
+        hair_test_field_update(&f, HAIR_TEST_FIELD_COLLIDERS);
+        hair_test_ok(f.test, hair_field_update(&own, f.colliders, HAIR_TEST_FIELD_COLLIDERS, &f.head));
+    }
+    uint64_t with = f.test->context->gl.memory.bytes - before;
+    printf("    %llu bytes without numbers, %llu with\n", (unsigned long long)without,
+           (unsigned long long)with);
+    assert_true(2 * with > 5 * without);
+    hair_field_destroy(&own);
+    hair_test_field_end(&f);
+}
+
 static void field_update_without_motion_calls_no_opengl(void** state)
 {
     struct hair_test_field_scene f;
@@ -192,6 +226,7 @@ static void field_of_a_gpu_has_the_same_distances_in_more_rounds(void** state)
         struct hair_collider_field field;
         uint32_t before = runs(&f);
         hair_field_create(&field, &f.test->context->sdf_pool, f.groom, HAIR_TEST_FIELD_VOXEL);
+        hair_field_want_numbers(&field);
         gl->software = gpu ? 0 : software;
         hair_test_ok(f.test, hair_field_update(&field, many, MANY, &f.head));
         gl->software = software;
@@ -213,6 +248,7 @@ int main(void)
     if (hair_test_skips()) return 0;
     const struct CMUnitTest tests[] = {
         HAIR_TEST(updated_field_equals_a_new_field_bit_for_bit),
+        HAIR_TEST(field_has_numbers_once_they_are_wanted),
         HAIR_TEST(field_update_without_motion_calls_no_opengl),
         HAIR_TEST(colliders_that_move_with_the_head_are_not_rewritten),
         HAIR_TEST(field_is_absent_without_a_collider_near),

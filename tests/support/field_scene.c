@@ -12,6 +12,7 @@ void hair_test_field_begin(struct hair_test* test, struct hair_pose head, struct
     *out = (struct hair_test_field_scene){.test = test, .head = head, .random = 7};
     out->groom = hair_test_groom(&test->host.host, hair_test_handmade_default());
     hair_field_create(&out->field, &test->context->sdf_pool, out->groom, HAIR_TEST_FIELD_VOXEL);
+    hair_field_want_numbers(&out->field);
     for (int i = 0; i < HAIR_TEST_FIELD_COLLIDERS; ++i)
         out->colliders[i] = hair_test_any_collider(&out->field.box, &head, 0.1f, &out->random);
 }

@@ -15,8 +15,9 @@ struct hair_test_field hair_test_field_read(const struct hair_collider_field* fi
     read.number = calloc(count, sizeof *read.number);
     glGetTextureImage(field->distance, 0, GL_RED, GL_FLOAT, (GLsizei)(count * sizeof *read.distance),
                       read.distance);
-    glGetTextureImage(field->number, 0, GL_RED_INTEGER, GL_UNSIGNED_INT,
-                      (GLsizei)(count * sizeof *read.number), read.number);
+    if (field->number)
+        glGetTextureImage(field->number, 0, GL_RED_INTEGER, GL_UNSIGNED_INT,
+                          (GLsizei)(count * sizeof *read.number), read.number);
     return read;
 }
 

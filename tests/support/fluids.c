@@ -44,6 +44,7 @@ void hair_test_fluid_begin(struct hair_test* test, const struct hair_fluid_desc*
     out->groom = make_groom(test);
     hair_gl_enter(&test->context->gl);
     hair_field_create(&out->field, &test->context->sdf_pool, out->groom, 0.005f);
+    hair_field_want_numbers(&out->field);
     hair_test_ok(test, hair_colliders_set(&test->host.host, &out->colliders, &collider, (uint32_t)ball,
                                           sizeof collider));
     hair_test_ok(test, hair_field_update(&out->field, out->colliders.current.collider,

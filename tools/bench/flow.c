@@ -41,6 +41,7 @@ bool bench_flow_live(struct bench* bench, const struct hair_fluid_desc* desc, bo
     if (result) return false;
     hair_gl_enter(gl);
     hair_field_create(&out->field, &bench->context->sdf_pool, out->groom, 0.005f);
+    hair_field_want_numbers(&out->field);
     result = hair_colliders_set(&bench->context->host, &out->colliders, &collider, ball, sizeof collider);
     if (!result) result = hair_field_update(&out->field, out->colliders.current.collider, ball, &origin);
     if (!result) result = hair_fluid_create(&out->fluid, gl, desc);
