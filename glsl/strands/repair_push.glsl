@@ -34,9 +34,11 @@ shared vec4 pushes[(HAIR_REPAIR_SAMPLES + 1) * HAIR_REPAIR_FOLLOWERS];
 // Four weights of each pushed vertex, by weights_at().
 shared float weights[4 * (HAIR_REPAIR_SAMPLES + 1) * HAIR_REPAIR_FOLLOWERS];
 shared uint pushed[2]; // 1 if a vertex is pushed in an even or an odd round.
-#else
-shared vec4 sums[HAIR_REPAIR_CONTROLS * HAIR_REPAIR_FOLLOWERS];
 #endif
+// PARTS sums of contributions to each control point, of every PARTS-th vertex. In a work group of
+// one follower, each is by another thread.
+#define PARTS 3
+shared vec4 sums[PARTS * HAIR_REPAIR_CONTROLS * HAIR_REPAIR_FOLLOWERS];
 
 vec4 repair_control(int first, int i) { return control[i * HAIR_REPAIR_FOLLOWERS + first]; }
 
@@ -78,12 +80,32 @@ vec4 find_push(int i, float t, float margin)
 // and its weight.
 vec4 contribute(float weight, vec4 push) { return weight * weight * vec4(weight * push.xyz, push.w); }
 
-void move(int c, vec4 sum)
+void move(int c)
 {
+    vec4 sum = vec4(0.0);
+    for (int i = 0; i < PARTS; ++i) sum += sums[PARTS * OF(c) + i];
     if (sum.w > 0.0) control[OF(c)].xyz += CAUTION / sum.w * sum.xyz;
 }
 
 #if HAIR_REPAIR_LANES > 1
+// Return a part of the contributions to control point c. Only vertices in the four intervals that
+// the control point influences have any.
+vec4 sum_of(int c, int part, int samples, float slide)
+{
+    float each = float(samples) / (slide * float(HAIR_REPAIR_INTERVALS)); // Vertices per interval.
+    int   from = max(int(float(c - 2) * each), 1);
+    int   to   = c + 2 < HAIR_REPAIR_INTERVALS ? min(int(float(c + 2) * each) + 1, samples) : samples;
+    vec4  sum  = vec4(0.0);
+    for (int i = from + (part + PARTS - from % PARTS) % PARTS; i <= to; i += PARTS) {
+        vec4 push = pushes[AT(i)];
+        if (push.w == 0.0) continue;
+        float x;
+        int   j = c + 1 - spline_place(slide * float(i) / float(samples), x);
+        if (0 <= j && j < 4) sum += contribute(weights[4 * AT(i) + j], push);
+    }
+    return sum;
+}
+
 bool push_once(uint round, int samples, float slide, float margin)
 {
     for (int i = 1 + lane; i <= samples; i += LANES) {
@@ -100,25 +122,20 @@ bool push_once(uint round, int samples, float slide, float margin)
     synchronise();
     bool any_ = pushed[round & 1u] != 0u;
     if (gl_LocalInvocationID.x == 0u) pushed[~round & 1u] = 0u;
-    for (int c = 1 + lane; c < HAIR_REPAIR_CONTROLS && any_; c += LANES) {
-        vec4  sum = vec4(0.0);
-        float x;
-        for (int i = 1; i <= samples; ++i) {
-            vec4 push = pushes[AT(i)];
-            if (push.w == 0.0) continue;
-            int j = c + 1 - spline_place(slide * float(i) / float(samples), x);
-            if (0 <= j && j < 4) sum += contribute(weights[4 * AT(i) + j], push);
-        }
-        move(c, sum);
-    }
+    if (!any_) return false;
+    int c = 1 + lane / PARTS, part = lane % PARTS;
+    if (c < HAIR_REPAIR_CONTROLS) sums[PARTS * OF(c) + part] = sum_of(c, part, samples, slide);
     synchronise();
-    return any_;
+    if (c < HAIR_REPAIR_CONTROLS && part == 0) move(c);
+    synchronise();
+    return true;
 }
 #else
 bool push_once(uint round, int samples, float slide, float margin)
 {
     bool any_ = false;
-    for (int c = 0; c < HAIR_REPAIR_CONTROLS; ++c) sums[OF(c)] = vec4(0.0);
+    for (int c = 0; c < HAIR_REPAIR_CONTROLS; ++c)
+        for (int i = 0; i < PARTS; ++i) sums[PARTS * OF(c) + i] = vec4(0.0);
     for (int i = 1; i <= samples; ++i) {
         int   k;
         float t = slide * float(i) / float(samples);
@@ -126,9 +143,9 @@ bool push_once(uint round, int samples, float slide, float margin)
         if (push.w == 0.0) continue;
         any_ = true;
         for (int j = k == 0 ? 2 : 0; j < 4; ++j)
-            sums[OF(k - 1 + j)] += contribute(weight[j], push);
+            sums[PARTS * OF(k - 1 + j) + i % PARTS] += contribute(weight[j], push);
     }
-    for (int c = 1; c < HAIR_REPAIR_CONTROLS; ++c) move(c, sums[OF(c)]);
+    for (int c = 1; c < HAIR_REPAIR_CONTROLS; ++c) move(c);
     return any_;
 }
 #endif

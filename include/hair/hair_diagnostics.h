@@ -104,7 +104,8 @@ typedef struct hair_field_info {
     /// into the box.
     uint32_t distance_texture;
     /// 3D texture of format R32UI with the index of the nearest collider in hair_set_colliders(),
-    /// or 4294967295 if none is near. May be 0.
+    /// or 4294967295 if none is near. May be 0. hair_get_field() makes it. From then on it takes 4
+    /// bytes a voxel.
     uint32_t collider_texture;
     /// Number of voxels along the x, y and z axes of the head.
     uint32_t size[3];

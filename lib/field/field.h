@@ -1,6 +1,6 @@
 // field.h - voxelised distance field of the colliders in a box of the head's frame. It holds the
-// distance to the nearest collider and, if wanted, its number. Colliders that move with the head do not change
-// it.
+// distance to the nearest collider and, if wanted, its number. Colliders that move with the head do
+// not change it.
 //
 // Nothing is created before a collider reaches into the box. Afterwards only bricks that changed
 // are written again.

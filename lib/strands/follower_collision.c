@@ -8,7 +8,7 @@
 #define OUTSIDE 5e-4f
 // Followers that a dispatch pushes out. A GPU must not take long for one. `hair-bench dispatch`
 // measures them. Among many colliders most followers stay inside one, and take all rounds.
-#define PUSHED 16384
+#define PUSHED 32768
 #define PUSHED_AMONG_MANY 1024
 
 // Return the pass that finds hits. GPUs need many threads with short loops. A software rasteriser
