@@ -210,6 +210,7 @@ hair_result hair_draw(hair_instance* hair, const hair_view* view)
         result = draw_surroundings(hair, &own.view);
     } else {
         result = prepare_draw(hair, &plan);
+        if (!result) hair_draw_rasterise(&hair->renderer, &plan, 0);
         if (!result) hair_draw_finish(&hair->renderer, &plan);
     }
     result = hair_leave_frame(hair->context, result);
@@ -275,6 +276,46 @@ static void draw_batch(struct hair_gl* gl, struct list_part* part)
     }
 }
 
+// Return the end of the instances from `first` on whose samples there is room for. An instance
+// without room fails.
+static uint32_t find_end_of_samples(struct list_part* part, uint32_t first)
+{
+    struct hair_batch* batch = &part->of[0]->context->batch;
+    size_t numbers = 0;
+    uint32_t end = first;
+    for (; end < part->drawn; ++end) {
+        size_t own = part->result[end] ? 0 : hair_draw_count_numbers(&part->plan[end]);
+        if (numbers && numbers + own > batch->samples.max) break;
+        numbers += own;
+    }
+    if (!hair_samples_ensure(batch->gl, numbers, &batch->samples)) return end;
+    hair_result* result = &part->result[first];
+    if (!*result)
+        *result =
+            hair_samples_ensure(batch->gl, hair_draw_count_numbers(&part->plan[first]), &batch->samples);
+    return first + 1;
+}
+
+// Draw prepared instances from `first` to `end` in their order. Find their samples side by side.
+static void draw_prepared(struct hair_gl* gl, struct list_part* part, uint32_t first, uint32_t end)
+{
+    size_t numbers = 0;
+    for (uint32_t i = first; i < end; ++i) {
+        size_t own = part->result[i] ? 0 : hair_draw_count_numbers(&part->plan[i]);
+        if (!own) continue;
+        hair_gl_set_owner(gl, &part->of[i]->memory, &part->of[i]->profiler);
+        hair_gl_resume_stream(gl, i);
+        hair_draw_rasterise(&part->of[i]->renderer, &part->plan[i], numbers);
+        numbers += own;
+    }
+    for (uint32_t i = first; i < end; ++i) {
+        if (part->result[i]) continue;
+        hair_gl_set_owner(gl, &part->of[i]->memory, &part->of[i]->profiler);
+        if (!part->plan[i].is_of_batch) hair_gl_continue_stream(gl, i);
+        hair_draw_finish(&part->of[i]->renderer, &part->plan[i]);
+    }
+}
+
 // Prepare all instances side by side, and then draw them in their order.
 static void draw_recorded(struct hair_gl* gl, struct list_part* part)
 {
@@ -284,11 +325,9 @@ static void draw_recorded(struct hair_gl* gl, struct list_part* part)
         hair_gl_begin_stream(gl);
         part->result[i] = prepare_draw(hair, &part->plan[i]);
     }
-    for (uint32_t i = 0; i < part->drawn; ++i) {
-        if (part->result[i]) continue;
-        hair_gl_set_owner(gl, &part->of[i]->memory, &part->of[i]->profiler);
-        if (!part->plan[i].is_of_batch) hair_gl_continue_stream(gl, i);
-        hair_draw_finish(&part->of[i]->renderer, &part->plan[i]);
+    for (uint32_t first = 0, end; first < part->drawn; first = end) {
+        end = find_end_of_samples(part, first);
+        draw_prepared(gl, part, first, end);
     }
     hair_gl_end_recording(gl);
 }
@@ -303,7 +342,9 @@ static void draw_in_turn(struct hair_gl* gl, struct list_part* part, const hair_
             continue;
         }
         part->result[i] = prepare_draw(hair, &part->plan[i]);
-        if (!part->result[i]) hair_draw_finish(&hair->renderer, &part->plan[i]);
+        if (part->result[i]) continue;
+        hair_draw_rasterise(&hair->renderer, &part->plan[i], 0);
+        hair_draw_finish(&hair->renderer, &part->plan[i]);
     }
 }
 

@@ -70,7 +70,7 @@ static struct part find_part(const struct hair_batch* batch, uint32_t first)
     for (uint32_t i = first; i < batch->heads; ++i) {
         struct hair_batch_head* own = &batch->head[i];
         size_t samples = (size_t)own->raster.columns * own->raster.rows * own->raster.samples;
-        if (part.heads && part.samples + samples > batch->max_samples) break;
+        if (part.heads && 2 * (part.samples + samples) > batch->samples.max) break;
         own->first_sample = (hair_uint)part.samples;
         own->first_tile = (hair_uint)part.tiles;
         own->raster_end += part.heads ? own[-1].raster_end : 0;
@@ -88,17 +88,16 @@ static struct part find_part(const struct hair_batch* batch, uint32_t first)
 
 static hair_result ensure_buffers(struct hair_batch* batch, const struct part* part)
 {
-    struct hair_raster_sizes sizes = {.params = HAIR_BATCH_HEADS * sizeof *batch->head,
-                                      .nearest = 2 * part->samples,
-                                      .tile = part->tiles + HAIR_BATCH_HEADS * HAIR_TILE_FIRST};
-    return hair_raster_ensure(batch->gl, HAIR_GL_NO_CATEGORY, &sizes, &batch->raster);
+    HAIR_TRY(hair_raster_ensure(batch->gl, HAIR_GL_NO_CATEGORY, HAIR_BATCH_HEADS * sizeof *batch->head,
+                                part->tiles + HAIR_BATCH_HEADS * HAIR_TILE_FIRST, &batch->raster));
+    return hair_samples_ensure(batch->gl, 2 * part->samples, &batch->samples);
 }
 
 static void rasterise_heads(struct hair_batch* batch, const struct hair_draw_plan* plan, struct part* part)
 {
     struct hair_gl* gl = batch->gl;
     const struct hair_batch_head* last = &part->head[part->heads - 1];
-    const GLuint buffers[] = {batch->raster.nearest, batch->raster.tile};
+    const GLuint buffers[] = {batch->samples.nearest, batch->raster.tile};
     size_t size = part->heads * sizeof *part->head;
     uint32_t numbers = (uint32_t)(2 * part->samples), heads = HAIR_BATCH_HEADS * HAIR_TILE_FIRST;
     uint32_t threads = (numbers + 3) / 4 > heads ? (numbers + 3) / 4 : heads;

@@ -10,7 +10,8 @@ struct hair_draw_plan;
 struct hair_pose;
 struct hair_renderer;
 
-// The batch of a context. It has memory only while heads have places in it.
+// The batch of a context. It has memory only while heads have places in it, or are drawn alone by
+// compute rasterisation.
 struct hair_batch {
     struct hair_gl* gl;
     // Vertices of all places, as in hair_view_cache. 0 until needed.
@@ -21,8 +22,8 @@ struct hair_batch {
     bool* is_taken; // True for each block that a head has.
     struct hair_batch_head* head; // Heads that are drawn next, with room for HAIR_BATCH_HEADS.
     uint32_t heads;
-    size_t max_samples; // Maximum samples of heads that are drawn at once, unless one has more.
-    struct hair_raster raster; // Buffers for the heads that are drawn at once.
+    struct hair_raster raster; // Buffers of the batch.
+    struct hair_samples samples; // Samples of the batch, or of heads that are drawn alone.
 };
 
 // Functions of batch_places.c.
@@ -36,6 +37,8 @@ void hair_batch_free(struct hair_batch* batch);
 bool hair_batch_take_place(struct hair_batch* batch, struct hair_batch_place* place, size_t vertices);
 // Free a place, if there is one. The last place takes the memory along.
 void hair_batch_leave_place(struct hair_batch* batch, struct hair_batch_place* place);
+// Note that a head is not drawn alone any more. The last takes the samples along.
+void hair_batch_leave_samples(struct hair_batch* batch);
 uint32_t hair_batch_first_vertex(struct hair_batch_place place);
 uint32_t hair_batch_count_vertices(struct hair_batch_place place);
 // Bind the vertices of a place, as at HAIR_BIND_CACHED_POSITION.

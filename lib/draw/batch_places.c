@@ -5,7 +5,8 @@
 
 #define BLOCK 4096u // Vertices of a block. Parts of buffers begin at multiples of 256 bytes.
 #define MIN_BLOCKS 64u // Blocks that there is memory for at first.
-#define MAX_SAMPLES 16000000u // Samples that are drawn at once, of 8 bytes each.
+#define GROWTH 8 // Buffers grow by this part at least.
+#define MAX_NUMBERS 8000000u // Numbers of the samples that are drawn at once. A sample has two.
 #define SHRINKS 3 // Heads get new places once many views in turn need less than a third of them.
 
 static const size_t size_of_vertex[HAIR_VIEW_CACHE_PARTS] = {[HAIR_VIEW_CACHE_POSITION] = sizeof(hair_vec4),
@@ -16,7 +17,7 @@ void hair_batch_init(struct hair_batch* batch, struct hair_gl* gl)
 {
     memset(batch, 0, sizeof *batch);
     batch->gl = gl;
-    batch->max_samples = MAX_SAMPLES;
+    batch->samples.max = MAX_NUMBERS;
 }
 
 static void free_vertices(struct hair_batch* batch)
@@ -28,13 +29,29 @@ static void free_vertices(struct hair_batch* batch)
     batch->blocks = 0;
 }
 
-void hair_batch_free(struct hair_batch* batch)
+// Free what no head needs.
+static void free_unused_batch(struct hair_batch* batch)
 {
     struct hair_gl* gl = batch->gl;
+    if (batch->places) return;
     free_vertices(batch);
     hair_raster_free(gl, &batch->raster);
     hair_free(&gl->host, batch->head);
-    hair_batch_init(batch, gl);
+    batch->head = NULL;
+    if (!batch->samples.users) hair_samples_free(gl, &batch->samples);
+}
+
+void hair_batch_free(struct hair_batch* batch)
+{
+    batch->places = batch->samples.users = 0;
+    free_unused_batch(batch);
+}
+
+void hair_batch_leave_samples(struct hair_batch* batch)
+{
+    HAIR_ASSERT(batch->samples.users > 0);
+    --batch->samples.users;
+    free_unused_batch(batch);
 }
 
 // Return the size of blocks in a part, in bytes.
@@ -66,7 +83,7 @@ static hair_result grow(struct hair_batch* batch, uint32_t count)
 {
     struct hair_gl* gl = batch->gl;
     struct hair_batch more = {.gl = gl};
-    uint32_t blocks = batch->blocks + (count > batch->blocks / 4 ? count : batch->blocks / 4);
+    uint32_t blocks = batch->blocks + (count > batch->blocks / GROWTH ? count : batch->blocks / GROWTH);
     HAIR_ASSERT(!hair_gl_is_recording(gl));
     if (!batch->head) batch->head = hair_alloc(&gl->host, HAIR_BATCH_HEADS, sizeof *batch->head);
     if (!batch->head) return hair_fail_memory(&gl->host, "a batch");
@@ -86,7 +103,7 @@ static hair_result grow(struct hair_batch* batch, uint32_t count)
 // Return whether the buffers may grow by a number of blocks, and be copied meanwhile.
 static bool may_grow(const struct hair_batch* batch, uint32_t count)
 {
-    uint64_t blocks = (uint64_t)batch->blocks + batch->blocks / 4 + count + MIN_BLOCKS;
+    uint64_t blocks = (uint64_t)batch->blocks + batch->blocks / GROWTH + count + MIN_BLOCKS;
     uint64_t bytes = blocks * BLOCK * size_of_vertex[HAIR_VIEW_CACHE_POSITION];
     return hair_gl_fits(batch->gl, bytes, 8) && hair_gl_memory_allows(&batch->gl->memory, 2 * bytes);
 }
@@ -126,7 +143,7 @@ bool hair_batch_take_place(struct hair_batch* batch, struct hair_batch_place* pl
     if (place->blocks) give_up(batch, place);
     uint32_t first = find_free(batch, blocks);
     if (first == batch->blocks && (!may_grow(batch, blocks) || grow(batch, blocks))) {
-        if (!batch->places) hair_batch_free(batch);
+        free_unused_batch(batch);
         return false;
     }
     *place = (struct hair_batch_place){.first = find_free(batch, blocks), .blocks = blocks};
@@ -139,7 +156,7 @@ void hair_batch_leave_place(struct hair_batch* batch, struct hair_batch_place* p
 {
     if (!place->blocks) return;
     give_up(batch, place);
-    if (!batch->places) hair_batch_free(batch);
+    free_unused_batch(batch);
 }
 
 uint32_t hair_batch_first_vertex(struct hair_batch_place place)

@@ -75,7 +75,6 @@ static void prepare_vertices(struct hair_renderer* renderer, struct hair_draw_pl
     if (plan->has_strand_list && !plan->keeps_vertices) hair_draw_update_strand_list(renderer, plan, params);
     if (plan->vertices == HAIR_VERTICES_CACHED) hair_geometry_bind_vertex_cache(renderer->geometry);
     if (plan->shade) hair_draw_write_vertices(renderer, plan, params);
-    if (plan->is_computed && !plan->is_of_batch) hair_draw_rasterise(renderer, plan);
     if (hair_draw_has_motion(plan->view)) hair_geometry_bind_history(renderer->geometry);
     if (plan->blending == HAIR_BLENDING_SORTED) hair_draw_sort(renderer);
 }

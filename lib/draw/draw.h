@@ -247,10 +247,14 @@ bool hair_draw_find_depth_test(struct hair_gl* gl, struct hair_depth_test* out);
 // there are none.
 bool hair_draw_find_raster(const struct hair_renderer* renderer, const struct hair_pose* head,
                            struct hair_draw_plan* plan);
-// Create the buffers of compute rasterisation.
+// Create the buffers of compute rasterisation, with room for the samples of this head alone.
 hair_result hair_draw_ensure_raster(struct hair_renderer* renderer, struct hair_draw_plan* plan);
-// Find the nearest segment at each sample. The inputs of drawing must be bound.
-void hair_draw_rasterise(struct hair_renderer* renderer, struct hair_draw_plan* plan);
+// Return how many numbers of hair_samples a prepared plan needs, or 0. A depth pass has one per
+// sample.
+size_t hair_draw_count_numbers(const struct hair_draw_plan* plan);
+// Find the nearest segment at each sample, if compute shaders do. The samples begin at `first`, and
+// must stay until hair_draw_finish(). What hair_draw_prepare() has bound must still be bound.
+void hair_draw_rasterise(struct hair_renderer* renderer, const struct hair_draw_plan* plan, size_t first);
 // Return the work groups that rasterise the segments of a view. Write the threads of a segment.
 uint32_t hair_draw_raster_groups(const struct hair_renderer* renderer, const hair_view* view,
                                  struct hair_raster_params* params);

@@ -64,7 +64,7 @@ static bool has_few_samples(const struct hair_renderer* renderer)
     gl->GetIntegerv(GL_SAMPLES, &samples);
     if (samples > HAIR_RASTER_SAMPLES) return false;
     double bytes = (double)viewport[2] * (double)viewport[3] * fmax(samples, 1) * SAMPLE_BYTES;
-    double had = (double)renderer->raster.room * sizeof(uint32_t);
+    double had = (double)renderer->batch->samples.room * sizeof(uint32_t);
     if (bytes <= had) return true;
     return bytes < 1e12 && hair_gl_fits(gl, (uint64_t)bytes, sizeof(uint32_t)) &&
            hair_gl_memory_allows(&gl->memory, (uint64_t)(bytes - had));

@@ -1,5 +1,6 @@
 // raster.c - compute rasterisation of segments, composited tile by tile into the framebuffer. It is
 // fast on GPUs with few raster units, and for strands so thin that triangle setup dominates.
+#include "lib/draw/batch.h"
 #include "lib/draw/draw.h"
 #include "lib/draw/params.h"
 
@@ -7,6 +8,8 @@
 #include <string.h>
 
 #define MANY_SEGMENTS 1000000u // Segments that keep a GPU busy with two threads each.
+// Numbers of a head are a multiple of this. Parts of buffers begin at multiples of 256 bytes.
+#define ALIGNED 64u
 #define BESIDE 2.0f // Pixels of margin around those that hair covers.
 
 // Find the positions of the samples in a pixel, or of one in `divisor` samples.
@@ -148,10 +151,13 @@ bool hair_draw_find_raster(const struct hair_renderer* renderer, const struct ha
     return true;
 }
 
-// Return how many numbers the samples take. A depth pass has one per sample.
-static size_t count_numbers(const struct hair_raster_params* params, hair_gl_pass with)
+size_t hair_draw_count_numbers(const struct hair_draw_plan* plan)
 {
-    return (size_t)params->columns * params->rows * params->samples * (with & HAIR_GL_WITH(DEPTH) ? 1 : 2);
+    const struct hair_raster_params* params = &plan->raster;
+    uint32_t each = plan->draw & HAIR_GL_WITH(DEPTH) ? 1 : 2;
+    if (!plan->is_computed || plan->is_empty || plan->is_of_batch) return 0;
+    return ((size_t)params->columns * params->rows * params->samples * each + ALIGNED - 1) / ALIGNED *
+           ALIGNED;
 }
 
 hair_result hair_draw_ensure_raster(struct hair_renderer* renderer, struct hair_draw_plan* plan)
@@ -162,15 +168,19 @@ hair_result hair_draw_ensure_raster(struct hair_renderer* renderer, struct hair_
         return hair_fail(&gl->host, HAIR_ERROR_OPENGL,
                          "HAIR_RENDER_PATH_COMPUTE draws into pixels of up to %d samples, not of %u",
                          HAIR_RASTER_SAMPLES, params->samples);
-    struct hair_raster_sizes sizes = {.params = sizeof *params,
-                                      .nearest = count_numbers(params, plan->draw),
-                                      .tile = params->tiles + HAIR_TILE_FIRST};
-    return hair_raster_ensure(gl, HAIR_GL_CATEGORY_COLOR, &sizes, &renderer->raster);
+    struct hair_samples* samples = &renderer->batch->samples;
+    if (!renderer->raster.params) ++samples->users;
+    hair_result result = hair_raster_ensure(gl, HAIR_GL_CATEGORY_COLOR, sizeof *params,
+                                            params->tiles + HAIR_TILE_FIRST, &renderer->raster);
+    if (!renderer->raster.params) hair_batch_leave_samples(renderer->batch);
+    return result ? result : hair_samples_ensure(gl, hair_draw_count_numbers(plan), samples);
 }
 
 void hair_draw_free_raster(struct hair_renderer* renderer)
 {
+    if (!renderer->raster.params) return;
     hair_raster_free(renderer->gl, &renderer->raster);
+    hair_batch_leave_samples(renderer->batch);
 }
 
 static uint32_t groups_for(uint64_t threads)
@@ -201,36 +211,41 @@ static void bind_ribbons(struct hair_renderer* renderer, const struct hair_draw_
                          is_of_view ? renderer->view_cache.buffer : cached);
 }
 
-void hair_draw_rasterise(struct hair_renderer* renderer, struct hair_draw_plan* plan)
+void hair_draw_rasterise(struct hair_renderer* renderer, const struct hair_draw_plan* plan, size_t first)
 {
-    struct hair_raster_params* params = &plan->raster;
+    struct hair_raster_params params = plan->raster;
     struct hair_gl* gl = renderer->gl;
-    struct hair_raster* raster = &renderer->raster;
-    GLuint buffers[] = {raster->nearest, raster->tile, renderer->strand_list.strand};
-    size_t numbers = count_numbers(params, plan->draw);
-    HAIR_ASSERT(raster->room >= numbers && raster->tile_room >= params->tiles + HAIR_TILE_FIRST);
-    uint32_t groups = hair_draw_raster_groups(renderer, plan->view, params);
+    const struct hair_samples* samples = &renderer->batch->samples;
+    const struct hair_raster* raster = &renderer->raster;
+    const GLuint buffers[] = {raster->tile, renderer->strand_list.strand};
+    size_t numbers = hair_draw_count_numbers(plan);
+    if (!numbers) return;
+    HAIR_ASSERT(samples->room >= first + numbers && first % ALIGNED == 0);
+    HAIR_ASSERT(raster->tile_room >= params.tiles + HAIR_TILE_FIRST);
+    const GLintptr at = (GLintptr)(first * sizeof(uint32_t));
+    const GLsizeiptr size = (GLsizeiptr)(numbers * sizeof(uint32_t));
+    uint32_t groups = hair_draw_raster_groups(renderer, plan->view, &params);
     hair_gl_bind_texture(gl, HAIR_UNIT_TILE, raster->tile_texture);
     if (plan->depth_test.depth) {
         hair_gl_bind_texture(gl, HAIR_UNIT_OCCLUSION, plan->depth_test.depth);
         hair_gl_bind_sampler(gl, HAIR_UNIT_OCCLUSION, gl->shadow_sampler[0]);
     }
     hair_gl_bind_buffers(gl, GL_UNIFORM_BUFFER, HAIR_BIND_RASTER, 1, &raster->params);
-    hair_gl_bind_buffers(gl, GL_SHADER_STORAGE_BUFFER, HAIR_BIND_NEAREST, 3, buffers);
+    hair_gl_bind_ranges(gl, GL_SHADER_STORAGE_BUFFER, HAIR_BIND_NEAREST, 1, &samples->nearest, &at, &size);
+    hair_gl_bind_buffers(gl, GL_SHADER_STORAGE_BUFFER, HAIR_BIND_NEAREST + 1, 2, buffers);
     bind_ribbons(renderer, plan);
     hair_gl_bind_buffers(gl, GL_SHADER_STORAGE_BUFFER, HAIR_BIND_COMMAND, 1, &renderer->strand_list.command);
-    // No pass over vertices separates this draw from the one before, which may still read.
-    if (plan->keeps_vertices) hair_gl_barrier(gl, GL_SHADER_STORAGE_BARRIER_BIT);
-    hair_gl_write_uniform(gl, raster->params, sizeof *params, params);
+    hair_gl_barrier(gl, GL_SHADER_STORAGE_BARRIER_BIT); // The last draw may still read.
+    hair_gl_write_uniform(gl, raster->params, sizeof params, &params);
     hair_draw_run(gl, HAIR_GL_RASTER_CLEAR, plan,
                   (uint32_t)((numbers + 4 * HAIR_CLEARED_BY_GROUP - 1) / (4 * HAIR_CLEARED_BY_GROUP)));
     hair_draw_run(gl, HAIR_GL_RASTER, plan, groups);
     if (!(plan->draw & HAIR_GL_WITH(DEPTH)) && !gl->long_atomics) {
-        params->claims = 1;
-        hair_gl_write_uniform(gl, raster->params, sizeof *params, params);
+        params.claims = 1;
+        hair_gl_write_uniform(gl, raster->params, sizeof params, &params);
         hair_draw_run(gl, HAIR_GL_RASTER, plan, groups);
     }
-    hair_draw_run(gl, HAIR_GL_COMPOSE_TILES, plan, params->tiles);
+    hair_draw_run(gl, HAIR_GL_COMPOSE_TILES, plan, params.tiles);
 }
 
 void hair_draw_issue_tiles(struct hair_gl* gl, GLuint commands, uint32_t count)

@@ -4,23 +4,28 @@
 
 #include "lib/gl/commands.h"
 
-// Buffers of a head that is drawn alone, or of a batch of heads.
+// Buffers of a head that is drawn alone, or of a batch of heads. 0 until needed.
 struct hair_raster {
-    GLuint params, nearest, tile; // Numbers, as in shared.h. 0 until needed.
+    GLuint params, tile;
     GLuint tile_texture; // Buffer texture of `tile`.
-    size_t room, tile_room; // Capacities of `nearest` and `tile`, in numbers.
+    size_t tile_room; // Capacity of `tile`, in numbers.
 };
 
-// Sizes of the buffers: bytes of `params`, numbers of `nearest` and of `tile`.
-struct hair_raster_sizes {
-    size_t params, nearest, tile;
+// Samples of the heads that are drawn next. Other heads overwrite them afterwards.
+struct hair_samples {
+    GLuint nearest; // Numbers, as in shared.h. 0 until needed.
+    size_t room; // Capacity in numbers.
+    size_t max; // Maximum numbers for several heads.
+    uint32_t users; // Number of heads that were drawn alone of late.
 };
 
-// Make buffers of at least these sizes. `params` never grows. Leave some slack in the others, so
-// that hair that comes nearer does not reallocate them each time.
-hair_result hair_raster_ensure(struct hair_gl* gl, hair_gl_category category,
-                               const struct hair_raster_sizes* sizes, struct hair_raster* raster);
+// Make buffers with `params` bytes, which never grow, and `tile` numbers.
+hair_result hair_raster_ensure(struct hair_gl* gl, hair_gl_category category, size_t params, size_t tile,
+                               struct hair_raster* raster);
 void hair_raster_free(struct hair_gl* gl, struct hair_raster* raster);
+// Make room for a number of numbers. Samples are lost where the room grows.
+hair_result hair_samples_ensure(struct hair_gl* gl, size_t numbers, struct hair_samples* samples);
+void hair_samples_free(struct hair_gl* gl, struct hair_samples* samples);
 
 // Depth test of the application, as a compute shader does it.
 struct hair_depth_test {

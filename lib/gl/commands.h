@@ -64,6 +64,8 @@ void hair_gl_begin_write(struct hair_gl* gl, GLuint buffer);
 // Run everything that is recorded, and run commands of a stream at once until
 // hair_gl_record_again(). A program that becomes current gets what the stream has bound.
 void hair_gl_continue_stream(struct hair_gl* gl, uint32_t index);
+// Record commands in a stream again. Run everything that is recorded, if the stream has any.
+void hair_gl_resume_stream(struct hair_gl* gl, uint32_t index);
 // Run commands of the current stream at once until hair_gl_record_again(). Return whether commands
 // were recorded.
 bool hair_gl_run_at_once(struct hair_gl* gl);

@@ -25,9 +25,9 @@ void hair_gl_record(struct hair_gl* gl, const struct hair_gl_command* command)
 {
     struct hair_gl_recorder* recorder = gl->recorder;
     struct hair_gl_stream* stream = hair_gl_current_stream(recorder);
-    HAIR_ASSERT(recorder->current + 1 == recorder->streams);
     if (!make_room(gl)) hair_gl_flush(gl);
     HAIR_ASSERT(recorder->count < recorder->room);
+    HAIR_ASSERT(stream->first == stream->end || stream->end == recorder->count);
     if (stream->first == stream->end) stream->first = stream->end = recorder->count;
     recorder->commands[recorder->count++] = *command;
     stream->end = recorder->count;
@@ -154,6 +154,16 @@ void hair_gl_continue_stream(struct hair_gl* gl, uint32_t index)
     hair_gl_flush(gl);
     recorder->mode = HAIR_GL_AT_ONCE;
     recorder->current = index;
+}
+
+void hair_gl_resume_stream(struct hair_gl* gl, uint32_t index)
+{
+    struct hair_gl_recorder* recorder = gl->recorder;
+    HAIR_ASSERT(recorder->mode != HAIR_GL_OFF && index < recorder->streams);
+    if (recorder->stream[index].first < recorder->stream[index].end) hair_gl_flush(gl);
+    recorder->current = index;
+    recorder->mode = HAIR_GL_RECORDING;
+    recorder->program = 0; // Passes that ran at once have changed it.
 }
 
 bool hair_gl_run_at_once(struct hair_gl* gl)

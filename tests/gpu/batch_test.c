@@ -158,9 +158,9 @@ static void parts_of_batches_have_the_same_pixels(void** state)
     struct batch_scene scene;
     start(state, 0, &scene);
     step(&scene, 1);
-    scene.test->context->batch.max_samples = 1;
+    scene.test->context->batch.samples.max = 1;
     assert_true(compare(&scene) > 0.05);
-    scene.test->context->batch.max_samples = SIDE * SIDE;
+    scene.test->context->batch.samples.max = 2 * SIDE * SIDE;
     assert_true(compare(&scene) > 0.05);
     assert_int_equal(count_places(&scene), HEADS);
     finish(&scene);
@@ -178,7 +178,7 @@ static void far_heads_need_no_buffers_of_their_own(void** state)
     compare(&scene);
     for (uint32_t i = 0; i < HEADS; ++i) {
         assert_int_equal(scene.listed[i]->renderer.view_cache.room, 0);
-        assert_int_equal(scene.listed[i]->renderer.raster.room, 0);
+        assert_int_equal(scene.listed[i]->renderer.raster.params, 0);
     }
     finish(&scene);
 }

@@ -307,7 +307,7 @@ static void compute_path_draws_pixels_of_user_shaders(void** state)
         hair_test_frame_make(&frame, WIDTH, HEIGHT, GL_RGBA32F, 0);
         hair_draw_free_raster(&f.hair->renderer);
         hair_test_ok(f.test, hair_draw(f.hair, &view));
-        assert_int_equal(f.hair->renderer.raster.nearest != 0, !pixels);
+        assert_int_equal(f.test->context->batch.samples.nearest != 0, !pixels);
         static float shown[4 * PIXELS];
         hair_test_frame_read(&frame, shown);
         uint32_t own = 0;
@@ -322,7 +322,7 @@ static void compute_path_draws_pixels_of_user_shaders(void** state)
 static void compute_memory_fits_the_pixels_and_is_freed_unused(void** state)
 {
     struct hair_test_scene f = start(state, 50, 3e-4f);
-    struct hair_raster* own = &f.hair->renderer.raster;
+    struct hair_samples* own = &f.test->context->batch.samples;
     struct hair_test_frame frame;
     hair_view view = front(HAIR_RENDER_PATH_CACHED, 0.8f);
     hair_test_frame_make(&frame, WIDTH, HEIGHT, GL_RGBA32F, 0);
@@ -341,7 +341,7 @@ static void compute_memory_fits_the_pixels_and_is_freed_unused(void** state)
         hair_test_ok(f.test, hair_step(f.hair, 1.0f / 60));
         hair_test_ok(f.test, hair_draw(f.hair, &view));
     }
-    assert_int_equal(own->nearest + own->tile + own->params, 0);
+    assert_int_equal(own->nearest + f.hair->renderer.raster.tile + f.hair->renderer.raster.params, 0);
     hair_test_frame_free(&frame);
     hair_test_scene_free(&f);
 }
