@@ -49,7 +49,7 @@ static hair_result make_group_followers(const hair_instance* hair, const hair_gr
         *radius *= looks[group].radius;
         if (has_factors) *radius = hide_group(*radius, group);
     }
-    hair_result result = hair_geometry_make_followers(&hair->geometry, size, followers, out);
+    hair_result result = hair_follower_pool_make(hair->geometry.pool, groom, followers, out);
     hair_free(host, followers);
     return result;
 }
@@ -137,18 +137,32 @@ static struct group_changes find_group_changes(const hair_group_look* before, co
     return changes;
 }
 
+// Return whether an instance may use the followers of its groom. With a skinned scalp followers are
+// written.
+static bool has_followers_of_groom(const hair_instance* hair, const hair_group_look* looks,
+                                   const struct group_changes* changes)
+{
+    bool is_same = !changes->has_factors && !hair_scalp_motion_is_on(&hair->sim);
+    for (int g = 0; g < HAIR_MAX_STRAND_GROUPS; ++g) is_same &= looks[g].radius == 1;
+    return is_same;
+}
+
 // Make the buffers of changed looks. On failure all that have been made are in `made`.
 static hair_result make_changed_buffers(const hair_instance* hair, const hair_group_look* looks,
                                         const struct group_changes* changes, struct group_buffers* made)
 {
-    if (changes->radii) HAIR_TRY(make_group_followers(hair, looks, changes->has_factors, &made->followers));
+    if (changes->radii && has_followers_of_groom(hair, looks, changes))
+        HAIR_TRY(hair_follower_pool_acquire(hair->geometry.pool, hair->groom, &made->followers));
+    else if (changes->radii)
+        HAIR_TRY(make_group_followers(hair, looks, changes->has_factors, &made->followers));
     if (changes->factors && changes->has_factors) HAIR_TRY(make_group_looks(hair, looks, &made->groups));
     return changes->colors ? make_group_colors(hair, looks, made->colors) : HAIR_OK;
 }
 
-static void free_group_buffers(struct hair_gl* gl, struct group_buffers* buffers)
+static void free_group_buffers(hair_context* context, struct group_buffers* buffers)
 {
-    hair_geometry_free_followers(gl, &buffers->followers);
+    struct hair_gl* gl = &context->gl;
+    hair_follower_pool_release(&context->follower_pool, &buffers->followers);
     hair_gl_free_buffer(gl, &buffers->groups.factors);
     hair_gl_free_array(gl, &buffers->colors[0], &buffers->colors[1]);
 }
@@ -160,7 +174,7 @@ static void use_group_buffers(hair_instance* hair, struct group_buffers* made, c
     if (changes->radii) hair_geometry_swap_followers(&hair->geometry, &made->followers);
     if (changes->factors) hair_geometry_swap_group_looks(&hair->geometry, &made->groups);
     if (changes->colors) hair_lighting_swap_colors(&hair->lighting, made->colors, has_colors(looks));
-    free_group_buffers(&hair->context->gl, made);
+    free_group_buffers(hair->context, made);
     hair_geometry_invalidate(&hair->geometry);
     hair_draw_free_reflectance(&hair->renderer);
 }
@@ -168,10 +182,10 @@ static void use_group_buffers(hair_instance* hair, struct group_buffers* made, c
 hair_result hair_instance_set_group_looks(hair_instance* hair,
                                           const hair_group_look looks[HAIR_MAX_STRAND_GROUPS])
 {
-    struct hair_gl* gl = &hair->context->gl;
+    const hair_host* host = &hair->context->host;
     if (!hair->group_looks) {
-        hair_group_look* own = hair_alloc(&gl->host, HAIR_MAX_STRAND_GROUPS, sizeof *own);
-        if (!own) return hair_fail_memory(&gl->host, "the looks of groups");
+        hair_group_look* own = hair_alloc(host, HAIR_MAX_STRAND_GROUPS, sizeof *own);
+        if (!own) return hair_fail_memory(host, "the looks of groups");
         for (int g = 0; g < HAIR_MAX_STRAND_GROUPS; ++g) own[g] = hair_group_look_default();
         hair->group_looks = own;
     }
@@ -179,7 +193,7 @@ hair_result hair_instance_set_group_looks(hair_instance* hair,
     struct group_changes changes = find_group_changes(hair->group_looks, looks);
     hair_result result = make_changed_buffers(hair, looks, &changes, &made);
     if (result) {
-        free_group_buffers(gl, &made);
+        free_group_buffers(hair->context, &made);
         return result;
     }
     memcpy(hair->group_looks, looks, HAIR_MAX_STRAND_GROUPS * sizeof *looks);

@@ -18,11 +18,13 @@ static hair_result create_factors(struct hair_geometry* geometry, const struct h
     return hair_gl_buffer_texture(gl, "factors of strands", GL_R16F, out->buffer, &out->texture);
 }
 
-hair_result hair_geometry_create(struct hair_geometry* geometry, struct hair_gl* gl,
+hair_result hair_geometry_create(struct hair_geometry* geometry, struct hair_follower_pool* pool,
                                  const struct hair_groom* groom, const struct hair_sim* sim,
                                  const hair_look* look, bool uses_prepass)
 {
+    struct hair_gl* gl = pool->gl;
     geometry->gl = gl;
+    geometry->pool = pool;
     geometry->look = *look;
     hair_look_write_curves(look, &geometry->strand_look);
     geometry->follower_collision.prepass = uses_prepass;
@@ -34,16 +36,14 @@ hair_result hair_geometry_create(struct hair_geometry* geometry, struct hair_gl*
     geometry->patches = groom->info.patch_count;
     geometry->map_sets = groom->map_sets;
     geometry->root_uvs = groom->root_uvs;
+    geometry->groom = groom;
     for (uint32_t i = 0; i < geometry->patches; ++i)
         if (groom->patches[i].count > geometry->max_isolines)
             geometry->max_isolines = groom->patches[i].count;
     // A patch of more than HAIR_MAX_ISOLINES is drawn in parts.
     HAIR_ASSERT((geometry->max_isolines > 0) == (geometry->followers > 0));
     HAIR_TRY(hair_smooth_create(&geometry->smooth, gl, groom, sim));
-    struct hair_follower_buffer made = {0};
-    HAIR_TRY(
-        hair_geometry_make_followers(geometry, hair_groom_follower_bytes(groom), groom->followers, &made));
-    hair_geometry_swap_followers(geometry, &made);
+    HAIR_TRY(hair_follower_pool_acquire(pool, groom, &geometry->follower));
     HAIR_TRY(create_factors(geometry, groom));
     HAIR_TRY(hair_gl_buffer(gl, HAIR_GL_CATEGORY_COLOR, "hair patches",
                             geometry->patches * sizeof *groom->patches, groom->patches, &geometry->patch));
@@ -60,47 +60,12 @@ void hair_geometry_destroy(struct hair_geometry* geometry)
     hair_geometry_free_vertex_cache(geometry);
     hair_geometry_free_history(geometry, &geometry->guide_history);
     hair_geometry_free_uvs(geometry);
-    hair_geometry_free_followers(gl, &geometry->follower);
+    hair_follower_pool_release(geometry->pool, &geometry->follower);
     hair_gl_free_array(gl, &geometry->patch, &geometry->patch_texture);
     hair_gl_free_array(gl, &geometry->factors.buffer, &geometry->factors.texture);
     hair_gl_free_buffer(gl, &geometry->groups.factors);
     hair_gl_free_buffer(gl, &geometry->params);
     hair_smooth_destroy(&geometry->smooth);
-}
-
-static float find_max_width(uint32_t count, const struct hair_follower* followers)
-{
-    float width = 0;
-    for (uint32_t i = 0; i < count; ++i) width = fmaxf(width, followers[i].offset[0].w);
-    return width;
-}
-
-hair_result hair_geometry_make_followers(const struct hair_geometry* geometry, size_t size,
-                                         const struct hair_follower* followers,
-                                         struct hair_follower_buffer* out)
-{
-    struct hair_gl* gl = geometry->gl;
-    struct hair_follower_buffer made = {.max_width = find_max_width(geometry->followers, followers)};
-    HAIR_TRY(hair_gl_buffer(gl, HAIR_GL_CATEGORY_COLOR, "hair followers", size, followers, &made.buffer));
-    hair_result result =
-        hair_gl_buffer_texture(gl, "hair followers", GL_RGBA32UI, made.buffer, &made.texture);
-    if (result)
-        hair_geometry_free_followers(gl, &made);
-    else
-        *out = made;
-    return result;
-}
-
-void hair_geometry_swap_followers(struct hair_geometry* geometry, struct hair_follower_buffer* followers)
-{
-    struct hair_follower_buffer was = geometry->follower;
-    geometry->follower = *followers, *followers = was;
-    geometry->bound_run = geometry->smooth.runs - 1; // Their roots have not moved with the scalp.
-}
-
-void hair_geometry_free_followers(struct hair_gl* gl, struct hair_follower_buffer* followers)
-{
-    hair_gl_free_array(gl, &followers->buffer, &followers->texture);
 }
 
 hair_result hair_geometry_make_group_looks(const struct hair_geometry* geometry,

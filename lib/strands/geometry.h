@@ -4,18 +4,12 @@
 #define HAIR_STRANDS_GEOMETRY_H
 
 #include "lib/strands/follower_collision.h"
+#include "lib/strands/follower_pool.h"
 #include "lib/strands/history.h"
 #include "lib/strands/smooth.h"
 #include "lib/strands/vertex_cache.h"
 
 #include <stdbool.h>
-
-// Buffer of followers and of their shapes.
-struct hair_follower_buffer {
-    GLuint buffer;
-    GLuint texture; // Buffer texture of `buffer`, for stages without storage buffers.
-    float max_width; // Maximum factor of the look's radius by the groom and by groups.
-};
 
 // Factors by which the looks of groups differ from the look.
 struct hair_group_look_buffer {
@@ -32,6 +26,8 @@ struct hair_strand_factor_buffer {
 
 struct hair_geometry {
     struct hair_gl* gl;
+    struct hair_follower_pool* pool; // Pool of the context.
+    const struct hair_groom* groom;
     struct hair_smooth smooth; // Smoothed guides.
     const struct hair_lengths* lengths; // Lengths of followers.
     hair_look look; // Look after hair_look_apply_wetness().
@@ -59,20 +55,13 @@ struct hair_geometry {
 
 // Create the smoothed guides and the buffers of followers. `look` is one after
 // hair_look_apply_wetness(). If `uses_prepass`, a prepass finds followers inside colliders.
-hair_result hair_geometry_create(struct hair_geometry* geometry, struct hair_gl* gl,
+hair_result hair_geometry_create(struct hair_geometry* geometry, struct hair_follower_pool* pool,
                                  const struct hair_groom* groom, const struct hair_sim* sim,
                                  const hair_look* look, bool uses_prepass);
 void hair_geometry_destroy(struct hair_geometry* geometry);
 // Set the look, after hair_look_apply_wetness(). A different look outdates follower collision and
 // the vertex cache.
 void hair_geometry_set_look(struct hair_geometry* geometry, const hair_look* look);
-// Make a buffer of followers and their shapes as in the groom.
-hair_result hair_geometry_make_followers(const struct hair_geometry* geometry, size_t size,
-                                         const struct hair_follower* followers,
-                                         struct hair_follower_buffer* out);
-// Exchange the buffer of followers.
-void hair_geometry_swap_followers(struct hair_geometry* geometry, struct hair_follower_buffer* followers);
-void hair_geometry_free_followers(struct hair_gl* gl, struct hair_follower_buffer* followers);
 // Make the buffer of factors of all groups.
 hair_result hair_geometry_make_group_looks(const struct hair_geometry* geometry,
                                            const struct hair_group_factors factors[HAIR_STRAND_GROUPS],
@@ -140,6 +129,8 @@ bool hair_look_is_styled(const hair_look* look);
 
 // Functions of scalp_roots.c.
 
+// Exchange the buffer of followers.
+void hair_geometry_swap_followers(struct hair_geometry* geometry, struct hair_follower_buffer* followers);
 // Prepare followers for a skinned scalp.
 hair_result hair_geometry_create_scalp_roots(struct hair_geometry* geometry, struct hair_sim* sim);
 // Move the roots of followers with the skinned scalp, once the guides are smoothed.

@@ -1,6 +1,24 @@
 // scalp_roots.c - followers on a skinned scalp. Their roots follow the scalp between the guides.
 #include "lib/strands/geometry.h"
 
+void hair_geometry_swap_followers(struct hair_geometry* geometry, struct hair_follower_buffer* followers)
+{
+    struct hair_follower_buffer was = geometry->follower;
+    geometry->follower = *followers, *followers = was;
+    geometry->bound_run = geometry->smooth.runs - 1; // Their roots have not moved with the scalp.
+}
+
+// Let the strands have a buffer of followers of their own, which may be written.
+static hair_result own_followers(struct hair_geometry* geometry)
+{
+    struct hair_follower_buffer made = {0};
+    if (!geometry->follower.groom) return HAIR_OK;
+    HAIR_TRY(hair_follower_pool_make(geometry->pool, geometry->groom, geometry->groom->followers, &made));
+    hair_geometry_swap_followers(geometry, &made);
+    hair_follower_pool_release(geometry->pool, &made);
+    return HAIR_OK;
+}
+
 hair_result hair_geometry_create_scalp_roots(struct hair_geometry* geometry, struct hair_sim* sim)
 {
     struct hair_gl* gl = geometry->gl;
@@ -9,6 +27,7 @@ hair_result hair_geometry_create_scalp_roots(struct hair_geometry* geometry, str
         return hair_fail(&gl->host, HAIR_ERROR_OPENGL,
                          "hair followers on a skinned scalp take %zu bytes, more than the driver's %d", size,
                          gl->max_storage_bytes);
+    HAIR_TRY(own_followers(geometry));
     return hair_scalp_motion_create(sim);
 }
 

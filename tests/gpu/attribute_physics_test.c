@@ -259,10 +259,10 @@ static void factors_cost_no_memory_and_stay_with_a_state(void** state)
     struct hair_test_strands strands = make_strands();
     struct values values;
     hair_desc desc = hair_test_rods(HAIR_SOLVER_DIRECT, HAIR_THREAD_MAPPING_AUTO, 0, NULL);
-    uint64_t before = hair_test_bytes(test);
+    uint64_t before = hair_test_gpu_bytes(test);
     hair_test_live(test, &strands, &desc, &without);
     hair_test_swing(&without);
-    uint64_t bytes = hair_test_bytes(test) - before;
+    uint64_t bytes = hair_test_gpu_bytes(test) - before;
     fill_values(&values, KINDS);
     strands.attributes = values.attributes, strands.attribute_count = KINDS;
     const uint32_t runs = hair_test_runs_of(&test->context->gl, "_group_damping");
@@ -272,7 +272,7 @@ static void factors_cost_no_memory_and_stay_with_a_state(void** state)
         if (is_used) fill_values(&values, KINDS);
         hair_test_live(test, &strands, &desc, &with);
         hair_test_swing(&with);
-        assert_int_equal(hair_test_bytes(test) - before, 2 * bytes);
+        assert_int_equal(hair_test_gpu_bytes(test) - before, 2 * bytes);
         bool is_equal = memcmp(with.positions, without.positions, 3 * with.vertices * sizeof(float)) == 0;
         assert_int_equal(is_equal, !is_used);
         assert_int_equal(hair_test_runs_of(&test->context->gl, "_group_damping") > runs, is_used);

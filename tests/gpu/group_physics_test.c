@@ -213,10 +213,10 @@ static void equal_groups_give_the_bits_of_none(void** state)
     struct hair_test_living without, with;
     struct hair_test_strands strands = make_strands(NULL);
     hair_desc desc = hair_test_rods(HAIR_SOLVER_DIRECT, HAIR_THREAD_MAPPING_AUTO, 0, NULL);
-    uint64_t before = hair_test_bytes(test);
+    uint64_t before = hair_test_gpu_bytes(test);
     hair_test_live(test, &strands, &desc, &without);
     hair_test_swing(&without);
-    uint64_t bytes = hair_test_bytes(test) - before;
+    uint64_t bytes = hair_test_gpu_bytes(test) - before;
     strands.groups = mixed_groups;
     hair_test_live(test, &strands, &desc, &with);
     hair_physics physics = with.physics, other = physics;
@@ -231,7 +231,7 @@ static void equal_groups_give_the_bits_of_none(void** state)
     hair_test_swing(&with);
     assert_int_equal(hair_test_runs_of(&test->context->gl, "_group_damping"), runs);
     assert_int_equal(with.hair->sim.rod, rods);
-    assert_int_equal(hair_test_bytes(test) - before, 2 * bytes);
+    assert_int_equal(hair_test_gpu_bytes(test) - before, 2 * bytes);
     assert_memory_equal(with.positions, without.positions, 3 * with.vertices * sizeof(float));
     hair_test_die(&with);
     hair_test_die(&without);

@@ -195,19 +195,20 @@ static void factors_of_one_cost_no_memory_and_no_program(void** state)
     look.curl.radius = 0.004f;
     const uint32_t runs = hair_test_runs_of(&test->context->gl, "_group_looks");
     float* plain = read_with(&scene, &look, NULL);
-    const uint64_t bytes = hair_test_bytes(test);
+    const uint64_t bytes = hair_test_gpu_bytes(test);
     float* same = read_with(&scene, &look, &group);
     assert_memory_equal(same, plain, 3 * sizeof *plain * FOLLOWERS * EACH);
-    assert_int_equal(hair_test_bytes(test), bytes);
+    assert_int_equal(hair_test_gpu_bytes(test), bytes);
     assert_int_equal(hair_test_runs_of(&test->context->gl, "_group_looks"), runs);
     group.curl.radius = 2;
     free(read_with(&scene, &look, &group));
-    assert_int_equal(hair_test_bytes(test), bytes + HAIR_STRAND_GROUPS * sizeof(struct hair_group_factors));
+    assert_int_equal(hair_test_gpu_bytes(test),
+                     bytes + HAIR_STRAND_GROUPS * sizeof(struct hair_group_factors));
     assert_true(hair_test_runs_of(&test->context->gl, "_group_looks") > runs);
     free(same);
     same = read_with(&scene, &look, NULL);
     assert_memory_equal(same, plain, 3 * sizeof *plain * FOLLOWERS * EACH);
-    assert_int_equal(hair_test_bytes(test), bytes);
+    assert_int_equal(hair_test_gpu_bytes(test), bytes);
     free(plain), free(same);
     hair_test_scene_free(&scene);
 }

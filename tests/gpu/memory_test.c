@@ -43,7 +43,7 @@ static uint64_t reported(struct hair_test_scene* f)
     hair_report_info info = hair_report_info_default();
     uint32_t count;
     hair_test_ok(f->test, hair_report(f->hair, true, &info, NULL, 0, 0, &count));
-    return info.bytes;
+    return info.bytes + hair_test_shared_bytes(f->context);
 }
 
 // Check that everything an instance can have is counted once, and freed.
@@ -89,6 +89,42 @@ static void memory_is_the_sum_of_instances_and_is_all_freed(void** state)
     assert_true(all > 4 * plain);
     assert_true(memory_of(&f).peak >= all);
     hair_destroy(f.hair);
+    f.hair = NULL;
+    assert_int_equal(memory_of(&f).bytes, 0);
+    hair_test_scene_free(&f);
+}
+
+// Destroy the first instance of a groom, whose strands another goes on to draw.
+static void instances_share_the_strands_of_their_groom(void** state)
+{
+    static float pixels[3][VALUES];
+    struct hair_test_scene f = start(*state);
+    hair_view view = hair_test_view_by(HAIR_RENDER_PATH_TESSELLATION);
+    hair_instance *first = f.hair, *other = NULL;
+    hair_group_look look = hair_group_look_default();
+    uint64_t strands = hair_groom_follower_bytes(first->groom), one = memory_of(&f).bytes;
+    hair_desc desc = hair_desc_default();
+    hair_test_ok(f.test, hair_create(f.context, first->groom, &desc, &other));
+    uint64_t two = memory_of(&f).bytes;
+    print_message("    %llu bytes of strands, %llu with one instance, %llu with two\n",
+                  (unsigned long long)strands, (unsigned long long)one, (unsigned long long)two);
+    assert_true(strands > 1000 && two <= 2 * one - strands);
+    draw(&f, &view, pixels[0]);
+    f.hair = other;
+    draw(&f, &view, pixels[1]);
+    assert_memory_equal(pixels[0], pixels[1], sizeof pixels[0]);
+    look.radius = 4; // Only this instance has wider strands.
+    hair_test_ok(f.test, hair_set_group_look(other, 0, &look));
+    draw(&f, &view, pixels[2]);
+    assert_true(hair_test_max_difference(pixels[0], pixels[2], VALUES) > 0.1f);
+    f.hair = first;
+    draw(&f, &view, pixels[1]);
+    assert_memory_equal(pixels[0], pixels[1], sizeof pixels[0]);
+    f.hair = other;
+    hair_destroy(first);
+    draw(&f, &view, pixels[1]);
+    assert_memory_equal(pixels[1], pixels[2], sizeof pixels[1]);
+    hair_destroy(other);
     f.hair = NULL;
     assert_int_equal(memory_of(&f).bytes, 0);
     hair_test_scene_free(&f);
@@ -227,6 +263,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         HAIR_TEST(guide_vertex_takes_a_limited_number_of_bytes),
         HAIR_TEST(memory_is_the_sum_of_instances_and_is_all_freed),
+        HAIR_TEST(instances_share_the_strands_of_their_groom),
         HAIR_TEST(memory_over_the_limit_is_refused_and_changes_nothing),
         HAIR_TEST(unused_view_memory_is_freed_and_made_again_on_use),
         HAIR_TEST(cached_vertices_stay_for_depth_when_colors_are_freed),

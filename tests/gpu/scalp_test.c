@@ -242,6 +242,32 @@ static void stretched_scalp_takes_every_root_along(void** state)
     }
 }
 
+// Instances of a groom share their followers, but not those whose roots move.
+static void scalp_of_one_instance_moves_no_other(void** state)
+{
+    struct hair_test* test = *state;
+    static struct hair_test_points rest, own, now;
+    struct hair_test_skinned s = hair_test_skinned_make(test, HAIR_SOLVER_DIRECT, HAIR_THREAD_MAPPING_AUTO);
+    hair_instance* other = NULL;
+    hair_desc desc = hair_desc_default();
+    desc.look = &s.hair->geometry.look;
+    hair_test_ok(test, hair_create(test->context, s.hair->groom, &desc, &other));
+    hair_test_read_points(test, other, HAIR_READ_FOLLOWERS, &rest);
+    stretch(&s, 1.2f, s.positions);
+    hair_test_skinned_set(test, &s);
+    hair_test_ok(test, hair_reset(s.hair));
+    hair_test_read_points(test, s.hair, HAIR_READ_FOLLOWERS, &own);
+    hair_test_ok(test, hair_reset(other));
+    hair_test_read_points(test, other, HAIR_READ_FOLLOWERS, &now);
+    assert_true(hair_test_points_distance(&rest, &own) > 0.01);
+    assert_memory_equal(rest.at, now.at, 3 * rest.count * sizeof *rest.at);
+    hair_destroy(s.hair);
+    hair_test_ok(test, hair_reset(other));
+    hair_test_read_points(test, other, HAIR_READ_FOLLOWERS, &now);
+    assert_memory_equal(rest.at, now.at, 3 * rest.count * sizeof *rest.at);
+    hair_destroy(other);
+}
+
 // Check a scalp that is passed in a moving space, far away or near. The head sees no difference.
 static void scalp_far_from_the_origin_moves_hair_equally(void** state)
 {
@@ -291,6 +317,7 @@ int main(void)
         HAIR_TEST(scalp_at_rest_in_a_moving_head_changes_nothing),
         HAIR_TEST(scalp_far_from_the_head_meets_colliders_there),
         HAIR_TEST(stretched_scalp_takes_every_root_along),
+        HAIR_TEST(scalp_of_one_instance_moves_no_other),
         HAIR_TEST(scalp_far_from_the_origin_moves_hair_equally),
     };
     return cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);

@@ -62,10 +62,3 @@ void hair_test_swing(struct hair_test_living* living)
     }
     hair_test_read_guides(living);
 }
-
-uint64_t hair_test_bytes(struct hair_test* test)
-{
-    hair_memory memory = hair_memory_default();
-    hair_test_ok(test, hair_get_memory(test->context, &memory));
-    return memory.bytes;
-}

@@ -16,7 +16,5 @@ void hair_test_measure_frequencies(struct hair_test_living* living, double hz[HA
 
 // Swing the head for half a second, and read the guides.
 void hair_test_swing(struct hair_test_living* living);
-// Return the memory of all buffers and textures of the context.
-uint64_t hair_test_bytes(struct hair_test* test);
 
 #endif

@@ -75,6 +75,16 @@ uint64_t hair_test_gpu_bytes(struct hair_test* test)
     return memory.bytes;
 }
 
+uint64_t hair_test_shared_bytes(const hair_context* context)
+{
+    uint64_t bytes = context->batch.samples.room * sizeof(uint32_t);
+    for (uint32_t i = 0; i < context->follower_pool.count; ++i) {
+        const hair_groom* groom = context->follower_pool.pooled[i].followers.groom;
+        if (groom) bytes += hair_groom_follower_bytes(groom);
+    }
+    return bytes;
+}
+
 // Return 1 for a program or a shader that is not deleted. Mesa keeps the program of the last draw
 // until the next draw, and a program keeps its shaders.
 static uint32_t is_kept(GLuint name)
