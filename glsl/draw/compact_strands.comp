@@ -13,7 +13,8 @@ void main()
     uint number = hair_group();
     if (number >= count_patches()) return;
     hair_patch_lines lines = find_lines(number);
-    uint first = first_in_cache(number, lines.first), last = limit_to_cache(lines.strands) - 1u;
+    uint first = first_in_cache(number, lines.first);
+    uint last  = limit_to_cache(number, lines.first, lines.all, lines.strands) - 1u;
     for (uint i = gl_LocalInvocationID.x; i < lines.strands; i += HAIR_GROUP_SIZE) {
         float fraction = i + 1u == lines.strands ? lines.fading : 1.0;
         strand[start[number] + i] =

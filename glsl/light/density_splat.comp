@@ -64,8 +64,8 @@ void main()
     uint group = hair_group() % groups, number = hair_group() / groups;
     if (number >= count_patches()) return;
     hair_patch_lines lines = find_lines(number);
+    lines.strands = limit_to_cache(number, lines.first, lines.all, lines.strands);
     lines.first   = first_in_cache(number, lines.first);
-    lines.strands = limit_to_cache(lines.strands);
     density_grid     grid  = find_grid();
     uint             count = lines.strands * draw.segments, each = (count + groups - 1u) / groups;
     uint             end   = min((group + 1u) * each, count);

@@ -163,8 +163,8 @@ struct hair_draw_params {
     float     curl_rate;   // Phase of curls by length along a strand, radians/m.
     hair_uint grid_has_all; // 1 if the density grid has the strands that the view leaves out too.
     hair_uint strands_at; // Per-view vertex with the number of listed strands. 0 if there is none.
-    // Strands of each patch for which the vertex cache has room. 0 if the cache has all strands.
-    hair_uint cache_strands;
+    // Fraction of all strands for which the vertex cache has room, times 2^32. 0 if it has all.
+    hair_uint cache_fraction;
     hair_uint unused0;
     hair_vec4 map_weights; // Weights of the sets of maps. Their sum is 1.
     // Parameters of the level of detail.

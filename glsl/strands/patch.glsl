@@ -32,6 +32,7 @@ hair_patch fetch_patch(uint number)
 
 struct hair_patch_lines {
     uint  first;     // First follower.
+    uint  all;       // Strands, and those that are drawn.
     uint  strands;
     uint  segments;  // Segments of a whole strand.
     float whole;     // Segments, with the last one as a fraction.
@@ -41,26 +42,32 @@ struct hair_patch_lines {
     float widened;   // Factor within `thickness` that compensates for strands that are left out.
 };
 
-// Return the number that the first strand of a patch has in the vertex cache.
+// Return the number that the first strand of a patch has in the vertex cache. Patches are in the
+// order of their strands.
 uint first_in_cache(uint number, uint first)
 {
-    return draw.cache_strands > 0u ? number * draw.cache_strands : first;
+    uint place, rest;
+    if (draw.cache_fraction == 0u) return first;
+    umulExtended(first, draw.cache_fraction, place, rest);
+    return place + HAIR_CACHE_MORE * number;
 }
 
-// Return how many of the first strands of a patch the vertex cache has room for.
-uint limit_to_cache(uint strands)
+// Return how many of the first strands of a patch the vertex cache has room for. The patch has
+// `all`, which begin at `first`.
+uint limit_to_cache(uint number, uint first, uint all, uint strands)
 {
-    return draw.cache_strands > 0u ? min(strands, draw.cache_strands) : strands;
+    return min(strands, first_in_cache(number + 1u, first + all) - first_in_cache(number, first));
 }
 
 hair_patch_lines find_lines(uint number)
 {
     hair_patch own = fetch_patch(number);
 #ifdef HAIR_EVERY_FOLLOWER
-    return hair_patch_lines(own.first, own.count, draw.segments, float(draw.segments), 1.0, 1.0, 1.0, 1.0);
+    return hair_patch_lines(own.first, own.count, own.count, draw.segments, float(draw.segments), 1.0,
+                            1.0, 1.0, 1.0);
 #else
 #ifdef HAIR_OCCLUSION
-    if (own.occluded != 0u) return hair_patch_lines(own.first, 0u, 1u, 1.0, 1.0, 1.0, 1.0, 1.0);
+    if (own.occluded != 0u) return hair_patch_lines(own.first, own.count, 0u, 1u, 1.0, 1.0, 1.0, 1.0, 1.0);
 #endif
     float mapped    = dot(own.map_density, draw.map_weights);
     float thickness = dot(own.map_thickness, draw.map_weights);
@@ -69,7 +76,7 @@ hair_patch_lines find_lines(uint number)
     hair_detail detail  = find_detail(own.guide, vec3(own.reach, own.longest, own.importance));
     float       wanted  = float(own.count) * fraction * detail.strands;
     uint        strands = uint(ceil(wanted));
-    return hair_patch_lines(own.first, strands, uint(ceil(detail.segments)), detail.segments,
+    return hair_patch_lines(own.first, own.count, strands, uint(ceil(detail.segments)), detail.segments,
                             1.0 - (float(strands) - wanted), thickness * detail.thickness,
                             thickness * detail.thickness * detail.wider, detail.thickness);
 #endif

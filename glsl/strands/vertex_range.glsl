@@ -21,8 +21,9 @@ vertex_range find_vertex_range()
     uint  own = hair_group() % draw.chunks * HAIR_GROUP_SIZE + gl_LocalInvocationID.x;
     // A strand that is about to appear counts as drawn, because other stages round differently.
     hair_patch_lines lines = find_lines(number);
-    uint  strands = limit_to_cache(min(lines.strands + uint(lines.fading > 0.999), all.count));
+    uint  strands = min(lines.strands + uint(lines.fading > 0.999), all.count);
     uint  first   = first_in_cache(number, all.first);
+    strands       = limit_to_cache(number, all.first, all.count, strands);
     return vertex_range(number, first * each + own, (first + strands) * each, stride, all.first - first,
                         lines.thickness, lines.widened,
                         max(1.0 - lines.whole / float(draw.segments), 0.0));

@@ -126,9 +126,8 @@ double hair_draw_estimate_fraction(const struct hair_renderer* renderer, const h
                          : 1));
 }
 
-// Return the maximum fraction of the strands of a patch that a view may draw.
-static double find_max_fraction(const struct hair_renderer* renderer, const struct hair_pose* head,
-                                const hair_view* view)
+double hair_draw_max_fraction(const struct hair_renderer* renderer, const struct hair_pose* head,
+                              const hair_view* view)
 {
     const struct hair_geometry* geometry = renderer->geometry;
     const hair_lod* lod = view->lod;
@@ -147,19 +146,10 @@ uint32_t hair_draw_max_strands(const struct hair_renderer* renderer, const struc
                                const hair_view* view)
 {
     const struct hair_geometry* geometry = renderer->geometry;
-    double fraction = find_max_fraction(renderer, head, view);
+    double fraction = hair_draw_max_fraction(renderer, head, view);
     // Each patch rounds up.
     double strands = ceil(fraction * geometry->followers) + geometry->patches;
     return strands < geometry->followers ? (uint32_t)strands : geometry->followers;
-}
-
-uint32_t hair_draw_max_patch_strands(const struct hair_renderer* renderer, const struct hair_pose* head,
-                                     const hair_view* view)
-{
-    const struct hair_geometry* geometry = renderer->geometry;
-    // One strand more may be about to appear.
-    double strands = ceil(find_max_fraction(renderer, head, view) * geometry->max_isolines) + 1;
-    return strands < geometry->max_isolines ? (uint32_t)strands : geometry->max_isolines;
 }
 
 void hair_draw_write_lod(const struct hair_renderer* renderer, const struct hair_pose* head,

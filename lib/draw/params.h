@@ -34,9 +34,10 @@ double hair_draw_estimate_fraction(const struct hair_renderer* renderer, const h
 // Return the maximum number of strands that a view may draw.
 uint32_t hair_draw_max_strands(const struct hair_renderer* renderer, const struct hair_pose* head,
                                const hair_view* view);
-// Return the maximum number of strands of a patch that a view may draw.
-uint32_t hair_draw_max_patch_strands(const struct hair_renderer* renderer, const struct hair_pose* head,
-                                     const hair_view* view);
+// Return the maximum fraction of the strands of a patch that a view may draw. A patch draws whole
+// strands.
+double hair_draw_max_fraction(const struct hair_renderer* renderer, const struct hair_pose* head,
+                              const hair_view* view);
 // Write the parameters of the level of detail. The matrices of the view must be written before.
 void hair_draw_write_lod(const struct hair_renderer* renderer, const struct hair_pose* head,
                          const hair_view* view, struct hair_draw_params* out);

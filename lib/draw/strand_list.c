@@ -6,6 +6,9 @@
 
 #include <string.h>
 
+#define SPARE 2 // A list is made anew once many views in sequence need less than this part of it.
+#define GROWTH 8 // A list has room for this part more strands than a view needs.
+
 // Return the instances of all strands, if the last may have fewer strands.
 static uint32_t count_instances(uint32_t strands)
 {
@@ -23,19 +26,37 @@ uint32_t hair_draw_instances_at_once(const struct hair_renderer* renderer)
     return instances < 1 ? 1 : instances;
 }
 
-static hair_result make_lists(struct hair_renderer* renderer)
+// Return the number of strands that a list is to have room for. Room that there is stays, until
+// many views in sequence need much less.
+static uint32_t choose_room(struct hair_renderer* renderer, const struct hair_draw_plan* plan)
+{
+    struct hair_strand_list* own = &renderer->strand_list;
+    const uint32_t all = renderer->geometry->followers;
+    uint32_t max = hair_draw_max_strands(renderer, plan->head, plan->view);
+    uint32_t room = max < all / SPARE ? max + max / GROWTH : all;
+    bool is_spare = hair_gl_count_spare(&own->spare, own->strand && own->room / SPARE > room);
+    return own->strand && own->room >= max && !is_spare ? own->room : room;
+}
+
+static hair_result make_lists(struct hair_renderer* renderer, const struct hair_draw_plan* plan)
 {
     struct hair_gl* gl = renderer->gl;
     const struct hair_geometry* geometry = renderer->geometry;
     struct hair_strand_list* own = &renderer->strand_list;
     if (!own->key) own->key = hair_alloc(&gl->host, 1, sizeof *own->key);
     if (!own->key) return hair_fail_memory(&gl->host, "the list of strands");
+    uint32_t room = choose_room(renderer, plan);
+    if (room != own->room) {
+        hair_gl_free_array(gl, &own->strand, &own->strand_texture);
+        own->room = room;
+        own->key->program_generation = 0; // There is no list.
+    }
     hair_result result = hair_gl_ensure_array(gl, HAIR_GL_CATEGORY_COMPACT_STRANDS, "hair strand starts",
                                               geometry->patches * sizeof(uint32_t), &own->start, 0, NULL);
     if (!result)
         result = hair_gl_ensure_array(gl, HAIR_GL_CATEGORY_COMPACT_STRANDS, "hair strands",
-                                      geometry->followers * sizeof(struct hair_strand), &own->strand,
-                                      GL_RGBA32UI, &own->strand_texture);
+                                      room * sizeof(struct hair_strand), &own->strand, GL_RGBA32UI,
+                                      &own->strand_texture);
     // Draws of one instance each are the most.
     size_t commands = HAIR_LIST_COMMANDS + HAIR_LIST_KINDS * (size_t)count_instances(geometry->followers);
     if (!result)
@@ -93,7 +114,7 @@ static hair_result ensure_indices(struct hair_renderer* renderer, int paired)
 
 hair_result hair_draw_ensure_strand_list(struct hair_renderer* renderer, struct hair_draw_plan* plan)
 {
-    hair_result result = make_lists(renderer);
+    hair_result result = make_lists(renderer, plan);
     if (!result && !plan->is_computed) result = ensure_indices(renderer, plan->is_paired);
     return result;
 }
@@ -114,6 +135,7 @@ void hair_draw_free_strand_list(struct hair_renderer* renderer)
     strand_list->key = NULL;
     hair_gl_free_buffer(gl, &strand_list->start);
     hair_gl_free_buffer(gl, &strand_list->strand);
+    strand_list->room = strand_list->spare = 0;
     hair_gl_free_buffer(gl, &strand_list->command);
 }
 
@@ -137,7 +159,7 @@ static struct hair_strand_list_key list_key(const struct hair_renderer* renderer
     of.params.strand_fraction = params->strand_fraction;
     of.params.segment_fraction = params->segment_fraction;
     of.params.width_power = params->width_power;
-    of.params.cache_strands = params->cache_strands;
+    of.params.cache_fraction = params->cache_fraction;
     return of;
 }
 

@@ -22,6 +22,8 @@ struct hair_strand_list {
     struct hair_strand_list_key* key;
     GLuint start, strand, command; // Buffers, as in shared.h. 0 until needed.
     GLuint strand_texture; // Buffer texture of `strand`, for drawing.
+    uint32_t room; // Capacity in strands.
+    uint32_t spare; // Number of views in sequence that need much less.
     // Indices of single vertices, then of paired vertices.
     struct hair_strand_list_indices indices[2];
 };

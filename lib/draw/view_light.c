@@ -19,12 +19,13 @@ static bool finds_light_by_list(const struct hair_draw_plan* plan)
     return plan->vertices == HAIR_VERTICES_PER_VIEW;
 }
 
-// Return the strands of each patch that the vertex cache of a part has room for, or 0 if for all.
-static uint32_t count_cached_strands(struct hair_renderer* renderer, const struct hair_draw_plan* plan)
+// Return the fraction of the strands that the vertex cache of a part has room for, as in
+// hair_draw_params.
+static uint32_t choose_cached_fraction(struct hair_renderer* renderer, const struct hair_draw_plan* plan)
 {
     if (!finds_light_by_list(plan)) return 0;
-    return hair_geometry_choose_cached_strands(renderer->geometry,
-                                               hair_draw_max_patch_strands(renderer, plan->head, plan->view));
+    return hair_geometry_choose_cached_fraction(renderer->geometry,
+                                                hair_draw_max_fraction(renderer, plan->head, plan->view));
 }
 
 // Write the parameters of hair that casts shadows, also where hair is out of view or occluded.
@@ -35,7 +36,7 @@ static void write_shadow_params(const struct hair_renderer* renderer, const stru
     hair_draw_write_params(renderer, plan->head, view, out);
     out->culls = 0;
     out->head_sphere.w = 0;
-    out->cache_strands = 0;
+    out->cache_fraction = 0;
 }
 
 // Return the nodes that the density grid needs for cells of `cell` m. The cells of hair that swings
@@ -56,11 +57,11 @@ static bool keeps_light(const struct hair_renderer* renderer, const struct hair_
     const struct hair_light_age* age = &renderer->light_age;
     const struct hair_self_shadow_state* self_shadow = &renderer->lighting->self_shadow;
     const hair_lod* lod = plan->view->lod;
-    size_t vertices = hair_geometry_count_cached(renderer->geometry, self_shadow->strands);
+    size_t vertices = hair_geometry_count_cached(renderer->geometry, self_shadow->fraction);
     uint32_t frames = renderer->frame - age->frame, index = plan->view->frame_index;
     bool fits = age->interval > 1 && lod && self_shadow->texture &&
                 self_shadow->numbers == vertices * plan->light_values && age->lights == plan->light_values &&
-                (!self_shadow->strands || finds_light_by_list(plan)) &&
+                (!self_shadow->fraction || finds_light_by_list(plan)) &&
                 hair_draw_estimate_fraction(renderer, lod) <= age->fraction;
     if (!fits) return false;
     // Lights may change while hair is not stepped.
@@ -75,7 +76,7 @@ hair_result hair_draw_ensure_self_shadow(struct hair_renderer* renderer, struct 
     if (keeps_light(renderer, plan)) return HAIR_OK;
     bool part = needs_cache_of_a_part(renderer, plan->view);
     write_shadow_params(renderer, plan, plan->view, &drawn);
-    if (part) drawn.cache_strands = count_cached_strands(renderer, plan);
+    if (part) drawn.cache_fraction = choose_cached_fraction(renderer, plan);
     all = drawn;
     if (plan->view->lod && !part) {
         hair_view whole = *plan->view;

@@ -67,7 +67,7 @@ void hair_lighting_write_params(const struct hair_lighting* lighting, const hair
     out->colored = view->pass == HAIR_PASS_COLOR;
     out->encode = (hair_uint)view->encode;
     out->light_values = hair_lighting_value_count(look, view);
-    out->cache_strands = lighting->self_shadow.strands;
+    out->cache_fraction = lighting->self_shadow.fraction;
     if (out->colored && !out->light_values) out->order = hair_lighting_order(lighting, look);
     hair_lighting_write_lights(lighting->gl, look, head, view, out);
 }

@@ -49,12 +49,12 @@ static hair_result ensure_light(struct hair_lighting* lighting, const struct hai
     struct hair_self_shadow_state* own = &lighting->self_shadow;
     HAIR_ASSERT(geometry->vertex_cache.vertices > 0);
     size_t numbers = geometry->vertex_cache.vertices * own->each;
-    uint32_t strands = geometry->vertex_cache.strands;
-    if (own->texture && own->numbers == numbers && own->strands == strands) return HAIR_OK;
+    uint32_t fraction = geometry->vertex_cache.fraction;
+    if (own->texture && own->numbers == numbers && own->fraction == fraction) return HAIR_OK;
     hair_gl_free_array(lighting->gl, &own->light, &own->texture);
     own->frame = 0;
     own->numbers = numbers;
-    own->strands = strands;
+    own->fraction = fraction;
     return hair_gl_ensure_array(lighting->gl, HAIR_GL_CATEGORY_SELF_SHADOW, "hair light",
                                 numbers * sizeof(uint32_t), &own->light, GL_R32UI, &own->texture);
 }

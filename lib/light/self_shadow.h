@@ -12,7 +12,7 @@ struct hair_self_shadow_state {
     uint32_t spare; // Number of views in turn that need much less.
     uint32_t each; // Number of values of each node and of each vertex.
     size_t numbers; // Capacity of `light`, in values.
-    uint32_t strands; // Strands of each patch that have values, as in hair_vertex_cache.
+    uint32_t fraction; // Fraction of the strands that have values, as in hair_vertex_cache.
     uint32_t filled; // Value of hair_vertex_cache.writes that the grid is for.
     // Frame number of the view that light was last computed for, and its light count.
     uint32_t frame, count;

@@ -84,13 +84,13 @@ bool hair_geometry_shows_followers(const struct hair_geometry* geometry);
 
 // Return the number of vertices of all followers, look.segments + 1 each.
 size_t hair_geometry_count_vertices(const struct hair_geometry* geometry);
-// Return the number of vertices of a vertex cache with room for a number of strands of each patch,
-// or for all strands with 0. Defined in vertex_cache.c.
-size_t hair_geometry_count_cached(const struct hair_geometry* geometry, uint32_t strands);
-// Return the strands of each patch that a vertex cache is to have room for, at least `strands`, or
-// 0 for all. Room that there is stays, until many views in sequence need much less. Defined in
-// vertex_cache.c.
-uint32_t hair_geometry_choose_cached_strands(struct hair_geometry* geometry, uint32_t strands);
+// Return the number of vertices of a vertex cache with room for a fraction of the strands, as in
+// hair_draw_params. Defined in vertex_cache.c.
+size_t hair_geometry_count_cached(const struct hair_geometry* geometry, uint32_t fraction);
+// Return the cache_fraction of hair_draw_params for views that draw at most `fraction` of the
+// strands of each patch. Room that there is stays, until many views in sequence need much less.
+// Defined in vertex_cache.c.
+uint32_t hair_geometry_choose_cached_fraction(struct hair_geometry* geometry, double fraction);
 // Return the number of work groups per patch of a pass over the fraction `fraction` of all
 // vertices.
 uint32_t hair_geometry_chunk_count(const struct hair_geometry* geometry, double fraction);

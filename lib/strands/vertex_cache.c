@@ -7,33 +7,46 @@
 #define SPARE 2 // A cache is made anew once many views in sequence need less than this part of it.
 #define GROWTH 8 // A cache has room for this part more strands than a view needs.
 
-size_t hair_geometry_count_cached(const struct hair_geometry* geometry, uint32_t strands)
+// Return the number of strands that a cache has room for.
+static uint64_t count_strands(const struct hair_geometry* geometry, uint32_t fraction)
 {
-    if (!strands) return hair_geometry_count_vertices(geometry);
-    return (size_t)geometry->patches * strands * (geometry->look.strand.segments + 1);
+    if (!fraction) return geometry->followers;
+    return ((uint64_t)geometry->followers * fraction >> 32) + HAIR_CACHE_MORE * (uint64_t)geometry->patches;
 }
 
-uint32_t hair_geometry_choose_cached_strands(struct hair_geometry* geometry, uint32_t strands)
+size_t hair_geometry_count_cached(const struct hair_geometry* geometry, uint32_t fraction)
+{
+    return (size_t)count_strands(geometry, fraction) * (geometry->look.strand.segments + 1);
+}
+
+// Return a fraction as cache_fraction of hair_draw_params has it, rounded up.
+static uint32_t write_fraction(double fraction)
+{
+    double scaled = ceil(fraction * 4294967296.0);
+    return scaled < 1 ? 1 : scaled < UINT32_MAX ? (uint32_t)scaled : UINT32_MAX;
+}
+
+uint32_t hair_geometry_choose_cached_fraction(struct hair_geometry* geometry, double fraction)
 {
     struct hair_vertex_cache* own = &geometry->vertex_cache;
-    HAIR_ASSERT(strands > 0);
-    uint32_t room = strands + strands / GROWTH;
-    bool needs_all = SPARE * (uint64_t)geometry->patches * room > geometry->followers;
-    bool has_all = !own->strands, is_spare = !needs_all && (has_all || own->strands > SPARE * room);
-    bool is_made = own->vertices && own->vertices == hair_geometry_count_cached(geometry, own->strands);
+    HAIR_ASSERT(fraction >= 0);
+    uint32_t min = write_fraction(fraction), room = write_fraction(fraction * (1 + 1.0 / GROWTH));
+    bool needs_all = SPARE * count_strands(geometry, room) > geometry->followers;
+    bool has_all = !own->fraction, is_spare = !needs_all && (has_all || own->fraction / SPARE > room);
+    bool is_made = own->vertices && own->vertices == hair_geometry_count_cached(geometry, own->fraction);
     if (hair_gl_count_spare(&own->spare_strands, is_made && is_spare)) is_made = false;
-    if (is_made && (has_all || own->strands >= strands)) return own->strands;
+    if (is_made && (has_all || own->fraction >= min)) return own->fraction;
     return needs_all ? 0 : room;
 }
 
-// Make the buffers of the cache, for `strands` of each patch. Light needs no tangents.
-static hair_result ensure_cache_buffers(struct hair_geometry* geometry, uint32_t strands, bool is_for_light)
+// Make the buffers of the cache, for a fraction of the strands. Light needs no tangents.
+static hair_result ensure_cache_buffers(struct hair_geometry* geometry, uint32_t fraction, bool is_for_light)
 {
     struct hair_gl* gl = geometry->gl;
     struct hair_vertex_cache* own = &geometry->vertex_cache;
-    size_t vertices = hair_geometry_count_cached(geometry, strands);
+    size_t vertices = hair_geometry_count_cached(geometry, fraction);
     if (!is_for_light) own->spare_strands = 0;
-    if (own->vertices != vertices || own->strands != strands) hair_geometry_free_vertex_cache(geometry);
+    if (own->vertices != vertices || own->fraction != fraction) hair_geometry_free_vertex_cache(geometry);
     if (hair_gl_count_spare(&own->spare, is_for_light && own->tangent && !own->is_complete))
         hair_gl_free_array(gl, &own->tangent, &own->tangent_texture);
     hair_result result =
@@ -45,14 +58,14 @@ static hair_result ensure_cache_buffers(struct hair_geometry* geometry, uint32_t
     if (result)
         hair_geometry_free_vertex_cache(geometry);
     else
-        own->vertices = vertices, own->strands = strands;
+        own->vertices = vertices, own->fraction = fraction;
     return result;
 }
 
 hair_result hair_geometry_ensure_shaded(struct hair_geometry* geometry)
 {
     struct hair_vertex_cache* own = &geometry->vertex_cache;
-    HAIR_ASSERT(own->vertices > 0 && !own->strands);
+    HAIR_ASSERT(own->vertices > 0 && !own->fraction);
     hair_result result =
         hair_gl_ensure_array(geometry->gl, HAIR_GL_CATEGORY_EXPAND, "hair shaded", own->vertices * 8,
                              &own->shaded, GL_RGBA16F, &own->shaded_texture);
@@ -70,7 +83,7 @@ void hair_geometry_free_vertex_cache(struct hair_geometry* geometry)
     struct hair_vertex_cache* own = &geometry->vertex_cache;
     hair_gl_free_array(geometry->gl, &own->position, &own->position_texture);
     hair_gl_free_array(geometry->gl, &own->tangent, &own->tangent_texture);
-    own->vertices = own->strands = 0;
+    own->vertices = own->fraction = 0;
     own->is_complete = 0;
     hair_geometry_free_shaded(geometry);
     hair_geometry_free_history(geometry, &geometry->history);
@@ -98,7 +111,7 @@ hair_result hair_geometry_ensure_vertex_cache(struct hair_geometry* geometry,
     struct hair_gl* gl = geometry->gl;
     struct hair_vertex_cache* vertex_cache = &geometry->vertex_cache;
     hair_gl_pass pass = hair_geometry_choose_variant(geometry, drawn ? HAIR_GL_EXPAND_DRAWN : HAIR_GL_EXPAND);
-    hair_result result = ensure_cache_buffers(geometry, drawn ? drawn->cache_strands : 0, drawn != NULL);
+    hair_result result = ensure_cache_buffers(geometry, drawn ? drawn->cache_fraction : 0, drawn != NULL);
     if (!result) result = hair_gl_ensure_program(gl, pass);
     if (result || is_fresh(geometry)) return result;
     struct hair_draw_params params;
@@ -109,7 +122,7 @@ hair_result hair_geometry_ensure_vertex_cache(struct hair_geometry* geometry,
     hair_gl_write_uniform(gl, geometry->params, sizeof params, &params);
     hair_geometry_bind(geometry);
     hair_geometry_save_history(geometry);
-    HAIR_ASSERT(vertex_cache->strands == params.cache_strands && params.chunks > 0);
+    HAIR_ASSERT(vertex_cache->fraction == params.cache_fraction && params.chunks > 0);
     const GLuint buffers[] = {vertex_cache->position, drawn ? 0 : vertex_cache->tangent};
     hair_gl_bind_buffers(gl, GL_SHADER_STORAGE_BUFFER, HAIR_BIND_CACHED_POSITION, 2, buffers);
     hair_gl_run(gl, pass, geometry->patches * params.chunks);

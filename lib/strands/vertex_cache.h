@@ -9,7 +9,7 @@ struct hair_vertex_cache {
     GLuint position, tangent, shaded; // Buffers, as in shared.h. 0 until needed.
     GLuint position_texture, tangent_texture, shaded_texture; // Their buffer textures, for drawing.
     size_t vertices; // Capacity in vertices.
-    uint32_t strands; // Strands of each patch that there is room for. 0 if there is room for all.
+    uint32_t fraction; // Fraction of the strands that there is room for, as in hair_draw_params.
     uint32_t spare_strands; // Number of views in sequence that need room for much fewer strands.
     uint32_t spare; // Number of writes in sequence without the tangents that there is memory for.
     int is_complete; // Nonzero if the vertices of all followers are written.

@@ -176,28 +176,34 @@ static void draw_depth_and_color(struct hair_test_scene* scene, double mean[4])
     read_mean(scene, mean);
 }
 
-// Light of few strands takes little memory, and is that of a cache with room for all strands.
+// Light of few strands takes little memory, and is that of a cache with room for all strands. The
+// list has room for few strands too.
 static void expect_same_light(struct hair_test* test, const hair_lod* lod)
 {
     struct hair_test_scene scene = make_lit_scene(test, lod);
     const struct hair_vertex_cache* cache = &scene.hair->geometry.vertex_cache;
+    const uint32_t followers = scene.hair->geometry.followers;
+    const uint32_t* listed = &scene.hair->renderer.strand_list.room;
     double few[4], all[4], again[4];
     scene.view.light_count = 1;
     set_away(&scene, 5);
     draw_depth_and_color(&scene, few);
     assert_true(few[0] > 1e-4);
-    assert_true(cache->strands > 0);
+    assert_true(cache->fraction > 0);
     assert_true(cache->vertices < hair_geometry_count_vertices(&scene.hair->geometry) / 2);
+    assert_in_range(*listed, 1, followers / 2);
     uint64_t bytes = hair_test_gpu_bytes(test);
     scene.view.lod = NULL;
     draw(&scene);
-    assert_int_equal(cache->strands, 0);
+    assert_int_equal(cache->fraction, 0);
+    assert_int_equal(*listed, followers);
     assert_true(hair_test_gpu_bytes(test) > bytes);
     scene.view.lod = lod;
     draw_depth_and_color(&scene, all);
-    assert_int_equal(cache->strands, 0); // Another view may need all again.
+    assert_int_equal(cache->fraction, 0); // Another view may need all again.
     for (int i = 0; i < 70; ++i) draw_depth_and_color(&scene, again);
-    assert_true(cache->strands > 0);
+    assert_true(cache->fraction > 0);
+    assert_in_range(*listed, 1, followers / 2);
     for (int k = 0; k < 4; ++k) {
         assert_float_equal(few[k], all[k], 1e-5);
         assert_float_equal(again[k], all[k], 1e-5);
@@ -225,7 +231,7 @@ static void expect_same_light_in_shader(struct hair_test* test, hair_shader* sha
     scene.view.light_count = 1;
     set_away(&scene, 5);
     for (int i = 0; i <= frames; ++i) draw_depth_and_color(&scene, own);
-    assert_true(scene.hair->geometry.vertex_cache.strands > 0);
+    assert_true(scene.hair->geometry.vertex_cache.fraction > 0);
     scene.view.shader = shader;
     draw_depth_and_color(&scene, shaded);
     for (int k = 0; k < 4; ++k) assert_float_equal(shaded[k], own[k], 0.25 * own[k]);
