@@ -13,6 +13,7 @@
 #define HAIR_REPAIR_CONTROLS 10  // Control points stored per follower.
 #define HAIR_REPAIR_ALONE 16     // Followers of a work group with one thread each.
 #define HAIR_REPAIR_THREADS 32   // Threads of a follower that has a work group.
+#define HAIR_REPAIR_TURNS 8      // Followers per work group, if all are in colliders.
 #define HAIR_CACHE_MORE 2        // Strands of each patch that a small vertex cache has besides.
 #define HAIR_REPAIR_SAMPLES 64   // Maximum segments of a follower that are tested.
 // HAIR_FOLLOWER_COLLISION_SINGLE_GUIDE of hair_follower_collision.

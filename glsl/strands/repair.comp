@@ -23,6 +23,16 @@ layout(std430, binding = HAIR_BIND_LIST) readonly restrict buffer list_buffer { 
 #define DEEP 0.025
 #define AHEAD 1           // Intervals above a vertex inside from which it is freed.
 
+#if HAIR_REPAIR_LANES > 1
+#define TURNS uint(HAIR_REPAIR_TURNS)
+#else
+#define TURNS 1u
+#endif
+
+shared float sum_of_part[HAIR_REPAIR_THREADS * HAIR_REPAIR_FOLLOWERS];
+// Depth of the deepest vertex that frees control points from this one on, as bits.
+shared uint depth_at[HAIR_REPAIR_CONTROLS * HAIR_REPAIR_FOLLOWERS];
+
 // Compute the vertices of the strand without its displacement.
 void place(hair_follower follower, int samples, float slide)
 {
@@ -41,13 +51,19 @@ vec3 pushed_at(int i, int samples, float slide)
     return vertex_at(i) + repair_at(follower_of_group, slide * float(i) / float(samples)).away;
 }
 
+// Return the length. Every HAIR_REPAIR_THREADS-th segment is in a sum of its own, which one thread
+// of a work group adds up.
 float length_of(int samples, float slide)
 {
-    for (int i = 1 + lane; i <= samples; i += LANES)
-        depth[AT(i)] = distance(pushed_at(i, samples, slide), pushed_at(i - 1, samples, slide));
+    for (int part = lane; part < HAIR_REPAIR_THREADS; part += LANES) {
+        float sum = 0.0;
+        for (int i = 1 + part; i <= samples; i += HAIR_REPAIR_THREADS)
+            sum += distance(pushed_at(i, samples, slide), pushed_at(i - 1, samples, slide));
+        sum_of_part[OF(part)] = sum;
+    }
     WAIT();
     float total = 0.0;
-    for (int i = 1; i <= samples; ++i) total += depth[AT(i)];
+    for (int part = 0; part < HAIR_REPAIR_THREADS; ++part) total += sum_of_part[OF(part)];
     WAIT();
     return total;
 }
@@ -56,28 +72,23 @@ float length_of(int samples, float slide)
 // the greatest depth.
 float free_controls(int samples)
 {
+    for (int c = lane; c < HAIR_REPAIR_CONTROLS; c += LANES) depth_at[OF(c)] = 0u;
+    WAIT();
+    for (int i = 1 + lane; i <= samples; i += LANES) {
+        float depth = max(-field_distance(vertex_at(i)), 0.0);
+        int   from  = clamp(i * HAIR_REPAIR_INTERVALS / samples - AHEAD, 0, HAIR_REPAIR_CONTROLS - 1);
+        // The bits of floats that are not negative have the order of the floats.
+        if (depth > 0.0) atomicMax(depth_at[OF(from)], floatBitsToUint(depth));
+    }
+    WAIT();
     float deepest = 0.0;
-    for (int i = 1; i <= samples; ++i) deepest = max(deepest, depth[AT(i)]);
-    for (int c = lane; c < HAIR_REPAIR_CONTROLS; c += LANES) {
-        float freed = 0.0;
-        for (int i = 1; i <= samples; ++i) {
-            int from = clamp(i * HAIR_REPAIR_INTERVALS / samples - AHEAD, 0, HAIR_REPAIR_CONTROLS - 1);
-            if (from <= c) freed = max(freed, clamp((depth[AT(i)] - SHALLOW) / (DEEP - SHALLOW), 0.0, 1.0));
-        }
-        control[OF(c)] = vec4(0.0, 0.0, 0.0, freed);
+    for (int c = 0; c < HAIR_REPAIR_CONTROLS; ++c) {
+        deepest = max(deepest, uintBitsToFloat(depth_at[OF(c)]));
+        if (c % LANES != lane) continue;
+        control[OF(c)] = vec4(0.0, 0.0, 0.0, clamp((deepest - SHALLOW) / (DEEP - SHALLOW), 0.0, 1.0));
     }
     WAIT();
     return deepest;
-}
-
-// Measure the unrepaired strand, whose vertices are placed. Return its length, and its greatest
-// depth.
-float measure(int samples, out float deepest)
-{
-    for (int i = 1 + lane; i <= samples; i += LANES) depth[AT(i)] = max(-field_distance(vertex_at(i)), 0.0);
-    WAIT();
-    deepest = free_controls(samples);
-    return length_of(samples, 1.0); // Nothing is displaced yet.
 }
 
 // Write the control points of a follower.
@@ -93,14 +104,10 @@ void write(uint number, float slide)
     }
 }
 
-void main()
+void repair_follower(uint place_in_list)
 {
-    uint first = hair_group() * HAIR_REPAIR_FOLLOWERS, count = list[draw.parity];
-    if (first >= count) return;
-    // Threads beyond the end of the list do the work of its last follower again, because all
-    // threads of a work group must meet at barriers.
-    uint          number   = list[2u + min(first + uint(follower_of_group), count - 1u)];
-    int           samples  = int(min(draw.segments, HAIR_REPAIR_SAMPLES));
+    uint number  = list[2u + place_in_list];
+    int  samples = int(min(draw.segments, HAIR_REPAIR_SAMPLES));
     hair_follower follower = fetch_follower(number);
 #if HAIR_REPAIR_LANES > 1
     if (lane == 0) pushed[0] = pushed[1] = 0u;
@@ -110,7 +117,8 @@ void main()
     WAIT();
     float deepest, slide = 1.0;
     place(follower, samples, slide);
-    float wanted = measure(samples, deepest);
+    deepest      = free_controls(samples);
+    float wanted = length_of(samples, 1.0); // Nothing is displaced yet.
     float margin = draw.collision_margin * smoothstep(0.0, SHALLOW, deepest);
     for (uint i = 0u; i < LENGTHS; ++i) {
         // A strand that keeps its guides is where it was measured.
@@ -121,4 +129,16 @@ void main()
         if (abs(slide - was) < SAME_LENGTH) break;
     }
     write(number, slide);
+}
+
+void main()
+{
+    uint count = list[draw.parity], first = hair_group() * HAIR_REPAIR_FOLLOWERS;
+    uint stride = hair_group_count() * HAIR_REPAIR_FOLLOWERS;
+    // Threads beyond the end of the list do the work of its last follower again, because all
+    // threads of a work group must meet at barriers.
+    for (uint turn = 0u; turn < TURNS && first < count; ++turn, first += stride) {
+        repair_follower(min(first + uint(follower_of_group), count - 1u));
+        WAIT(); // The next follower overwrites what threads have in common.
+    }
 }

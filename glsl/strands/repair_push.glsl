@@ -28,7 +28,6 @@ int lane              = int(gl_LocalInvocationID.x) % LANES;
 
 shared vec4  control[HAIR_REPAIR_CONTROLS * HAIR_REPAIR_FOLLOWERS];
 shared float vertex[3 * (HAIR_REPAIR_SAMPLES + 1) * HAIR_REPAIR_FOLLOWERS];
-shared float depth[(HAIR_REPAIR_SAMPLES + 1) * HAIR_REPAIR_FOLLOWERS];
 #if HAIR_REPAIR_LANES > 1
 shared vec4 pushes[(HAIR_REPAIR_SAMPLES + 1) * HAIR_REPAIR_FOLLOWERS];
 // Four weights of each pushed vertex, by weights_at().

@@ -88,7 +88,7 @@ static void run_collision(struct hair_geometry* geometry, const struct hair_coll
     hair_gl_run(gl, pass_of(geometry), (geometry->followers + each - 1) / each);
     // Work groups beyond the end of the list return at once.
     if (geometry->look.followers.collision != HAIR_FOLLOWER_COLLISION_PUSH_OUT) return;
-    each = gl->software ? HAIR_REPAIR_ALONE : 1;
+    each = gl->software ? HAIR_REPAIR_ALONE : HAIR_REPAIR_TURNS;
     uint32_t max = field->near < HAIR_MANY_COLLIDERS ? PUSHED : PUSHED_AMONG_MANY;
     hair_gl_limit_groups(gl, repair_of(geometry), max / each);
     hair_gl_run(gl, repair_of(geometry), (geometry->followers + each - 1) / each);
