@@ -25,7 +25,6 @@ struct hair_context {
     struct hair_budget budget; // disabled unless hair_set_budget() sets one
     struct hair_fastest fastest; // render paths that HAIR_RENDER_PATH_AUTO selects
     struct hair_sdf_pool sdf_pool; // shared by the fields of all instances
-    struct hair_follower_pool follower_pool; // shared by the strands of all instances
     struct hair_batch batch; // small heads of lists that are drawn together
     struct hair_context_member* members; // all that own something, newest first
     uint32_t holder_count; // the application, until it destroys the context, and all members

@@ -16,7 +16,6 @@ hair_result hair_context_create(const hair_context_desc* desc, hair_context** ou
     context->host = host;
     context->holder_count = 1;
     hair_sdf_pool_init(&context->sdf_pool, &context->gl);
-    hair_follower_pool_init(&context->follower_pool, &context->gl);
     hair_batch_init(&context->batch, &context->gl);
     context->desc = own;
     hair_result result = hair_gl_create(&context->gl, &host, &own);
@@ -73,7 +72,6 @@ static void end(hair_context* context)
 {
     while (context->members) empty_member(context, context->members);
     hair_sdf_pool_free(&context->sdf_pool);
-    hair_follower_pool_free(&context->follower_pool);
     hair_batch_free(&context->batch);
     hair_gl_frame_timer_free(&context->gl, &context->budget.timer);
     hair_gl_destroy(&context->gl);

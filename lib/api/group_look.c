@@ -49,7 +49,7 @@ static hair_result make_group_followers(const hair_instance* hair, const hair_gr
         *radius *= looks[group].radius;
         if (has_factors) *radius = hide_group(*radius, group);
     }
-    hair_result result = hair_follower_pool_make(hair->geometry.pool, groom, followers, out);
+    hair_result result = hair_geometry_make_followers(&hair->geometry, followers, false, out);
     hair_free(host, followers);
     return result;
 }
@@ -78,7 +78,10 @@ static hair_result make_group_colors(const hair_instance* hair, const hair_group
     const hair_groom* groom = hair->groom;
     const hair_host* host = &hair->context->host;
     const size_t each = 4 * (HAIR_CURVE_INTERVALS + 1);
-    if (!groom->colors && !has_colors(looks)) return HAIR_OK;
+    if (!has_colors(looks))
+        return groom->colors ? hair_lighting_make_colors(&hair->lighting, groom->info.follower_count,
+                                                         groom->colors, true, out)
+                             : HAIR_OK;
     uint16_t* colors = hair_alloc(host, groom->info.follower_count, each * sizeof *colors);
     if (!colors) return hair_fail_memory(host, "the colours of groups");
     if (groom->colors) memcpy(colors, groom->colors, groom->info.follower_count * each * sizeof *colors);
@@ -86,7 +89,8 @@ static hair_result make_group_colors(const hair_instance* hair, const hair_group
         const hair_group_look* look = &looks[group_of(groom, i)];
         if (look->color.enabled) write_ramp(look, colors + each * i);
     }
-    hair_result result = hair_lighting_make_colors(&hair->lighting, groom->info.follower_count, colors, out);
+    hair_result result =
+        hair_lighting_make_colors(&hair->lighting, groom->info.follower_count, colors, false, out);
     hair_free(host, colors);
     return result;
 }
@@ -152,17 +156,17 @@ static hair_result make_changed_buffers(const hair_instance* hair, const hair_gr
                                         const struct group_changes* changes, struct group_buffers* made)
 {
     if (changes->radii && has_followers_of_groom(hair, looks, changes))
-        HAIR_TRY(hair_follower_pool_acquire(hair->geometry.pool, hair->groom, &made->followers));
+        HAIR_TRY(
+            hair_geometry_make_followers(&hair->geometry, hair->groom->followers, true, &made->followers));
     else if (changes->radii)
         HAIR_TRY(make_group_followers(hair, looks, changes->has_factors, &made->followers));
     if (changes->factors && changes->has_factors) HAIR_TRY(make_group_looks(hair, looks, &made->groups));
     return changes->colors ? make_group_colors(hair, looks, made->colors) : HAIR_OK;
 }
 
-static void free_group_buffers(hair_context* context, struct group_buffers* buffers)
+static void free_group_buffers(struct hair_gl* gl, struct group_buffers* buffers)
 {
-    struct hair_gl* gl = &context->gl;
-    hair_follower_pool_release(&context->follower_pool, &buffers->followers);
+    hair_geometry_free_followers(gl, &buffers->followers);
     hair_gl_free_buffer(gl, &buffers->groups.factors);
     hair_gl_free_array(gl, &buffers->colors[0], &buffers->colors[1]);
 }
@@ -174,7 +178,7 @@ static void use_group_buffers(hair_instance* hair, struct group_buffers* made, c
     if (changes->radii) hair_geometry_swap_followers(&hair->geometry, &made->followers);
     if (changes->factors) hair_geometry_swap_group_looks(&hair->geometry, &made->groups);
     if (changes->colors) hair_lighting_swap_colors(&hair->lighting, made->colors, has_colors(looks));
-    free_group_buffers(hair->context, made);
+    free_group_buffers(&hair->context->gl, made);
     hair_geometry_invalidate(&hair->geometry);
     hair_draw_free_reflectance(&hair->renderer);
 }
@@ -193,7 +197,7 @@ hair_result hair_instance_set_group_looks(hair_instance* hair,
     struct group_changes changes = find_group_changes(hair->group_looks, looks);
     hair_result result = make_changed_buffers(hair, looks, &changes, &made);
     if (result) {
-        free_group_buffers(hair->context, &made);
+        free_group_buffers(&hair->context->gl, &made);
         return result;
     }
     memcpy(hair->group_looks, looks, HAIR_MAX_STRAND_GROUPS * sizeof *looks);

@@ -72,8 +72,8 @@ hair_result hair_instance_create_rooms(hair_instance* hair, const hair_groom* gr
     HAIR_TRY(hair_sim_create(&hair->sim, gl, groom, sim));
     hair->told = hair_rods_report_none().softened;
     hair_tell_softened(hair);
-    HAIR_TRY(hair_geometry_create(&hair->geometry, &context->follower_pool, groom, &hair->sim, &look,
-                                  hair->creation.uses_prepass));
+    HAIR_TRY(
+        hair_geometry_create(&hair->geometry, gl, groom, &hair->sim, &look, hair->creation.uses_prepass));
     HAIR_TRY(hair_lighting_create(&hair->lighting, gl, groom));
     hair_renderer_create(&hair->renderer, gl, groom, hair->bounds, &hair->geometry, &hair->lighting,
                          &context->batch, &context->fastest);

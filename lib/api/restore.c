@@ -12,7 +12,6 @@
 struct lost {
     struct hair_gl gl;
     struct hair_sdf_pool sdf_pool;
-    struct hair_follower_pool follower_pool;
     struct hair_batch batch;
     hair_instance* instances; // Copies of all instances, in the order of the context.
     uint32_t count;
@@ -136,12 +135,10 @@ static void undo(hair_context* context, const struct lost* lost, uint32_t count)
     }
     replace_grids(context, lost->grids);
     hair_sdf_pool_free(&context->sdf_pool);
-    hair_follower_pool_free(&context->follower_pool);
     hair_batch_free(&context->batch);
     hair_gl_destroy(&context->gl);
     context->gl = lost->gl;
     context->sdf_pool = lost->sdf_pool;
-    context->follower_pool = lost->follower_pool;
     context->batch = lost->batch;
 }
 
@@ -169,12 +166,10 @@ static void free_lost(hair_context* context, struct lost* lost)
 {
     struct hair_gl gl = context->gl;
     struct hair_sdf_pool sdf_pool = context->sdf_pool;
-    struct hair_follower_pool follower_pool = context->follower_pool;
     struct hair_batch batch = context->batch;
     hair_instance* hair = find_instance(context->members);
     context->gl = lost->gl;
     context->sdf_pool = lost->sdf_pool;
-    context->follower_pool = lost->follower_pool;
     context->batch = lost->batch;
     hair_gl_ignore_deletions(&context->gl);
     hair_body* body = find_body(context->members);
@@ -190,12 +185,10 @@ static void free_lost(hair_context* context, struct lost* lost)
         if (member->empty != hair_instance_empty && member->empty != hair_body_empty)
             hair_gl_free_shader_programs(&context->gl, &((hair_shader*)member)->gl);
     hair_sdf_pool_free(&context->sdf_pool);
-    hair_follower_pool_free(&context->follower_pool);
     hair_batch_free(&context->batch);
     hair_gl_destroy(&context->gl);
     context->gl = gl;
     context->sdf_pool = sdf_pool;
-    context->follower_pool = follower_pool;
     context->batch = batch;
 }
 
@@ -227,11 +220,9 @@ hair_result hair_context_restore(hair_context* context)
     if (!result) {
         lost.gl = context->gl;
         lost.sdf_pool = context->sdf_pool;
-        lost.follower_pool = context->follower_pool;
         lost.batch = context->batch;
         context->gl = made;
         hair_sdf_pool_init(&context->sdf_pool, &context->gl);
-        hair_follower_pool_init(&context->follower_pool, &context->gl);
         hair_batch_init(&context->batch, &context->gl);
         result = make_all_again(context, &lost);
         if (!result) {

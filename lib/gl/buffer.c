@@ -99,6 +99,26 @@ hair_result hair_gl_storage(struct hair_gl* gl, hair_gl_category category, const
     return hair_gl_buffer(gl, category, label, size, data, out);
 }
 
+hair_result hair_gl_shared_buffer(struct hair_gl* gl, const char* label, size_t size, const void* data,
+                                  GLuint* out)
+{
+    GLuint shared = hair_gl_memory_join(gl, data);
+    if (shared) {
+        *out = shared;
+        return HAIR_OK;
+    }
+    HAIR_TRY(hair_gl_buffer(gl, HAIR_GL_NO_CATEGORY, label, size, data, out));
+    hair_gl_memory_open(gl, *out, data);
+    return HAIR_OK;
+}
+
+hair_result hair_gl_shared_storage(struct hair_gl* gl, const char* label, size_t size, const void* data,
+                                   GLuint* out)
+{
+    HAIR_TRY(check_storage_size(gl, label, size));
+    return hair_gl_shared_buffer(gl, label, size, data, out);
+}
+
 hair_result hair_gl_undefined_storage(struct hair_gl* gl, hair_gl_category category, const char* label,
                                       size_t size, GLuint* out)
 {
@@ -296,6 +316,10 @@ void hair_gl_fill_texture_3d(struct hair_gl* gl, GLuint texture, const uint32_t 
 void hair_gl_free_buffer(struct hair_gl* gl, GLuint* buffer)
 {
     if (!*buffer) return;
+    if (hair_gl_memory_leave(gl, *buffer)) {
+        *buffer = 0;
+        return;
+    }
     hair_gl_memory_remove(gl, false, *buffer);
     hair_gl_forget(gl, false, *buffer);
     gl->DeleteBuffers(1, buffer);

@@ -22,6 +22,12 @@ void hair_gl_memory_add(struct hair_gl* gl, hair_gl_category category, bool is_t
 void hair_gl_memory_resize(struct hair_gl* gl, GLuint buffer, uint64_t size);
 // Forget an object that is about to be deleted. Any owner may be current.
 void hair_gl_memory_remove(struct hair_gl* gl, bool is_texture, GLuint name);
+// Let a buffer of no owner be shared by all users of `data`. It has one user then.
+void hair_gl_memory_open(struct hair_gl* gl, GLuint buffer, const void* data);
+// Add a user to the buffer of `data`, and return it, or 0 if there is none.
+GLuint hair_gl_memory_join(struct hair_gl* gl, const void* data);
+// Remove a user of a buffer. Return whether it has others.
+bool hair_gl_memory_leave(struct hair_gl* gl, GLuint buffer);
 
 // buffer.c ----------------------------------------------------------------------------------------
 
@@ -37,6 +43,14 @@ bool hair_gl_fits(const struct hair_gl* gl, uint64_t size, uint32_t texel);
 // smaller.
 hair_result hair_gl_storage(struct hair_gl* gl, hair_gl_category category, const char* label, size_t size,
                             const void* data, GLuint* out);
+// Create a buffer that never changes, or get the one that was created with the same `data`. `data`
+// must not change before the last user has freed the buffer. hair_gl_free_buffer() frees it for one
+// user. No report counts its memory.
+hair_result hair_gl_shared_buffer(struct hair_gl* gl, const char* label, size_t size, const void* data,
+                                  GLuint* out);
+// Do this for a buffer that shaders read as storage.
+hair_result hair_gl_shared_storage(struct hair_gl* gl, const char* label, size_t size, const void* data,
+                                   GLuint* out);
 // Create a storage buffer of at least 16 bytes with undefined contents, which costs no upload. A
 // pass must write all of the buffer before another pass reads it.
 hair_result hair_gl_undefined_storage(struct hair_gl* gl, hair_gl_category category, const char* label,

@@ -10,6 +10,8 @@ struct hair_gl_allocation {
     hair_gl_category category;
     uint64_t bytes;
     struct hair_gl_owner* owner; // NULL if no report counts the object.
+    const void* data; // Data of a shared buffer. NULL if the object has one user.
+    uint32_t users; // Number of users of a shared buffer.
 };
 
 static uint32_t find_home(const struct hair_gl_memory* memory, GLuint name, bool is_texture)
@@ -112,4 +114,31 @@ void hair_gl_memory_remove(struct hair_gl* gl, bool is_texture, GLuint name)
     }
     slots[hole].name = 0;
     --memory->count;
+}
+
+GLuint hair_gl_memory_join(struct hair_gl* gl, const void* data)
+{
+    struct hair_gl_memory* memory = &gl->memory;
+    for (uint32_t i = 0; i < memory->room; ++i) {
+        struct hair_gl_allocation* of = &memory->allocations[i];
+        if (!of->name || of->data != data) continue;
+        ++of->users;
+        return of->name;
+    }
+    return 0;
+}
+
+void hair_gl_memory_open(struct hair_gl* gl, GLuint buffer, const void* data)
+{
+    struct hair_gl_allocation* of = &gl->memory.allocations[find_slot(&gl->memory, buffer, false)];
+    HAIR_ASSERT(of->name && !of->data && !of->owner && data);
+    of->data = data;
+    of->users = 1;
+}
+
+bool hair_gl_memory_leave(struct hair_gl* gl, GLuint buffer)
+{
+    struct hair_gl_allocation* of = &gl->memory.allocations[find_slot(&gl->memory, buffer, false)];
+    HAIR_ASSERT(of->name && (!of->data || of->users > 0));
+    return of->data && --of->users > 0;
 }

@@ -9,16 +9,19 @@ hair_result hair_lighting_create(struct hair_lighting* lighting, struct hair_gl*
     hair_lighting_measure_groom(lighting, groom);
     lighting->has_groom_colors = groom->colors != NULL;
     if (!groom->colors) return HAIR_OK;
-    HAIR_TRY(hair_lighting_make_colors(lighting, groom->info.follower_count, groom->colors, made));
+    HAIR_TRY(hair_lighting_make_colors(lighting, groom->info.follower_count, groom->colors, true, made));
     hair_lighting_swap_colors(lighting, made, false);
     return HAIR_OK;
 }
 
 hair_result hair_lighting_make_colors(const struct hair_lighting* lighting, uint32_t followers,
-                                      const uint16_t* colors, GLuint out[2])
+                                      const uint16_t* colors, bool is_shared, GLuint out[2])
 {
     size_t size = (size_t)followers * (HAIR_CURVE_INTERVALS + 1) * 4 * sizeof *colors;
-    HAIR_TRY(hair_gl_buffer(lighting->gl, HAIR_GL_CATEGORY_COLOR, "hair colours", size, colors, &out[0]));
+    if (is_shared)
+        HAIR_TRY(hair_gl_shared_buffer(lighting->gl, "hair colours", size, colors, &out[0]));
+    else
+        HAIR_TRY(hair_gl_buffer(lighting->gl, HAIR_GL_CATEGORY_COLOR, "hair colours", size, colors, &out[0]));
     hair_result result = hair_gl_buffer_texture(lighting->gl, "hair colours", GL_RGBA16, out[0], &out[1]);
     if (result) hair_gl_free_array(lighting->gl, &out[0], &out[1]);
     return result;

@@ -32,9 +32,9 @@ hair_result hair_lighting_create(struct hair_lighting* lighting, struct hair_gl*
                                  const struct hair_groom* groom);
 void hair_lighting_destroy(struct hair_lighting* lighting);
 // Make a buffer of colours, with its texture, as of hair_groom.colors. Alpha is 65535 for the
-// colours of a group, and otherwise 0.
+// colours of a group, and otherwise 0. If `is_shared`, the colours are those of the groom.
 hair_result hair_lighting_make_colors(const struct hair_lighting* lighting, uint32_t followers,
-                                      const uint16_t* colors, GLuint out[2]);
+                                      const uint16_t* colors, bool is_shared, GLuint out[2]);
 // Exchange the buffer of colours and its texture. `has_group_colors` is true if groups have some.
 void hair_lighting_swap_colors(struct hair_lighting* lighting, GLuint colors[2], bool has_group_colors);
 // Return whether strands have colours of the groom or of groups with a look.

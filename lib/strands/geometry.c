@@ -12,19 +12,17 @@ static hair_result create_factors(struct hair_geometry* geometry, const struct h
     if (!groom->factors) return HAIR_OK;
     out->slots = groom->factor_slots;
     out->count = groom->factor_count;
-    HAIR_TRY(hair_gl_buffer(gl, HAIR_GL_CATEGORY_COLOR, "factors of strands",
-                            (size_t)geometry->followers * out->count * sizeof *groom->factors, groom->factors,
-                            &out->buffer));
+    HAIR_TRY(hair_gl_shared_buffer(gl, "factors of strands",
+                                   (size_t)geometry->followers * out->count * sizeof *groom->factors,
+                                   groom->factors, &out->buffer));
     return hair_gl_buffer_texture(gl, "factors of strands", GL_R16F, out->buffer, &out->texture);
 }
 
-hair_result hair_geometry_create(struct hair_geometry* geometry, struct hair_follower_pool* pool,
+hair_result hair_geometry_create(struct hair_geometry* geometry, struct hair_gl* gl,
                                  const struct hair_groom* groom, const struct hair_sim* sim,
                                  const hair_look* look, bool uses_prepass)
 {
-    struct hair_gl* gl = pool->gl;
     geometry->gl = gl;
-    geometry->pool = pool;
     geometry->look = *look;
     hair_look_write_curves(look, &geometry->strand_look);
     geometry->follower_collision.prepass = uses_prepass;
@@ -35,7 +33,6 @@ hair_result hair_geometry_create(struct hair_geometry* geometry, struct hair_fol
     geometry->shape_vertices = groom->shape_vertices;
     geometry->patches = groom->info.patch_count;
     geometry->map_sets = groom->map_sets;
-    geometry->root_uvs = groom->root_uvs;
     geometry->groom = groom;
     for (uint32_t i = 0; i < geometry->patches; ++i)
         if (groom->patches[i].count > geometry->max_isolines)
@@ -43,7 +40,7 @@ hair_result hair_geometry_create(struct hair_geometry* geometry, struct hair_fol
     // A patch of more than HAIR_MAX_ISOLINES is drawn in parts.
     HAIR_ASSERT((geometry->max_isolines > 0) == (geometry->followers > 0));
     HAIR_TRY(hair_smooth_create(&geometry->smooth, gl, groom, sim));
-    HAIR_TRY(hair_follower_pool_acquire(pool, groom, &geometry->follower));
+    HAIR_TRY(hair_geometry_make_followers(geometry, groom->followers, true, &geometry->follower));
     HAIR_TRY(create_factors(geometry, groom));
     HAIR_TRY(hair_gl_buffer(gl, HAIR_GL_CATEGORY_COLOR, "hair patches",
                             geometry->patches * sizeof *groom->patches, groom->patches, &geometry->patch));
@@ -60,7 +57,7 @@ void hair_geometry_destroy(struct hair_geometry* geometry)
     hair_geometry_free_vertex_cache(geometry);
     hair_geometry_free_history(geometry, &geometry->guide_history);
     hair_geometry_free_uvs(geometry);
-    hair_follower_pool_release(geometry->pool, &geometry->follower);
+    hair_geometry_free_followers(gl, &geometry->follower);
     hair_gl_free_array(gl, &geometry->patch, &geometry->patch_texture);
     hair_gl_free_array(gl, &geometry->factors.buffer, &geometry->factors.texture);
     hair_gl_free_buffer(gl, &geometry->groups.factors);

@@ -4,12 +4,19 @@
 #define HAIR_STRANDS_GEOMETRY_H
 
 #include "lib/strands/follower_collision.h"
-#include "lib/strands/follower_pool.h"
 #include "lib/strands/history.h"
 #include "lib/strands/smooth.h"
 #include "lib/strands/vertex_cache.h"
 
 #include <stdbool.h>
+
+// Buffer of followers and of their shapes.
+struct hair_follower_buffer {
+    GLuint buffer;
+    GLuint texture; // Buffer texture of `buffer`, for stages without storage buffers.
+    float max_width; // Maximum factor of the look's radius by the groom and by groups.
+    bool is_shared; // The buffer is that of all instances of the groom, and nothing writes it.
+};
 
 // Factors by which the looks of groups differ from the look.
 struct hair_group_look_buffer {
@@ -26,7 +33,6 @@ struct hair_strand_factor_buffer {
 
 struct hair_geometry {
     struct hair_gl* gl;
-    struct hair_follower_pool* pool; // Pool of the context.
     const struct hair_groom* groom;
     struct hair_smooth smooth; // Smoothed guides.
     const struct hair_lengths* lengths; // Lengths of followers.
@@ -49,13 +55,12 @@ struct hair_geometry {
     // Vertices of followers and smoothed guides, for the application. Its frames are not those of
     // views.
     struct hair_vertex_history host_history, guide_history;
-    const float* root_uvs; // Root uvs of the groom. NULL if there are none.
     GLuint uv, uv_texture; // Root uvs. 0 until needed.
 };
 
 // Create the smoothed guides and the buffers of followers. `look` is one after
 // hair_look_apply_wetness(). If `uses_prepass`, a prepass finds followers inside colliders.
-hair_result hair_geometry_create(struct hair_geometry* geometry, struct hair_follower_pool* pool,
+hair_result hair_geometry_create(struct hair_geometry* geometry, struct hair_gl* gl,
                                  const struct hair_groom* groom, const struct hair_sim* sim,
                                  const hair_look* look, bool uses_prepass);
 void hair_geometry_destroy(struct hair_geometry* geometry);
@@ -79,6 +84,17 @@ uint32_t hair_geometry_count_smoothed(const struct hair_geometry* geometry);
 GLuint hair_geometry_smoothed_positions(const struct hair_geometry* geometry);
 // Return whether the look shows any follower.
 bool hair_geometry_shows_followers(const struct hair_geometry* geometry);
+
+// Functions of follower_buffer.c.
+
+// Make a buffer of followers and their shapes. If `is_shared`, they are those of the groom, and all
+// instances of the groom have one buffer.
+hair_result hair_geometry_make_followers(const struct hair_geometry* geometry,
+                                         const struct hair_follower* followers, bool is_shared,
+                                         struct hair_follower_buffer* out);
+void hair_geometry_free_followers(struct hair_gl* gl, struct hair_follower_buffer* followers);
+// Exchange the buffer of followers.
+void hair_geometry_swap_followers(struct hair_geometry* geometry, struct hair_follower_buffer* followers);
 
 // Functions of followers.c, which every file of this folder may use.
 
@@ -129,8 +145,6 @@ bool hair_look_is_styled(const hair_look* look);
 
 // Functions of scalp_roots.c.
 
-// Exchange the buffer of followers.
-void hair_geometry_swap_followers(struct hair_geometry* geometry, struct hair_follower_buffer* followers);
 // Prepare followers for a skinned scalp.
 hair_result hair_geometry_create_scalp_roots(struct hair_geometry* geometry, struct hair_sim* sim);
 // Move the roots of followers with the skinned scalp, once the guides are smoothed.

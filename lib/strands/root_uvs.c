@@ -3,7 +3,7 @@
 
 bool hair_geometry_has_uvs(const struct hair_geometry* geometry)
 {
-    return geometry->root_uvs != NULL;
+    return geometry->groom->root_uvs != NULL;
 }
 
 hair_result hair_geometry_ensure_uvs(struct hair_geometry* geometry)
@@ -12,9 +12,8 @@ hair_result hair_geometry_ensure_uvs(struct hair_geometry* geometry)
     struct hair_gl* gl = geometry->gl;
     hair_result result = HAIR_OK;
     if (!geometry->uv)
-        result = hair_gl_buffer(gl, HAIR_GL_CATEGORY_COLOR, "hair root uvs",
-                                (size_t)geometry->followers * 2 * sizeof(float), geometry->root_uvs,
-                                &geometry->uv);
+        result = hair_gl_shared_buffer(gl, "hair root uvs", (size_t)geometry->followers * 2 * sizeof(float),
+                                       geometry->groom->root_uvs, &geometry->uv);
     if (!result && !geometry->uv_texture)
         result = hair_gl_buffer_texture(gl, "hair root uvs", GL_RG32F, geometry->uv, &geometry->uv_texture);
     return result;

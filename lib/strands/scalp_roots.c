@@ -1,21 +1,14 @@
 // scalp_roots.c - followers on a skinned scalp. Their roots follow the scalp between the guides.
 #include "lib/strands/geometry.h"
 
-void hair_geometry_swap_followers(struct hair_geometry* geometry, struct hair_follower_buffer* followers)
-{
-    struct hair_follower_buffer was = geometry->follower;
-    geometry->follower = *followers, *followers = was;
-    geometry->bound_run = geometry->smooth.runs - 1; // Their roots have not moved with the scalp.
-}
-
 // Let the strands have a buffer of followers of their own, which may be written.
 static hair_result own_followers(struct hair_geometry* geometry)
 {
     struct hair_follower_buffer made = {0};
-    if (!geometry->follower.groom) return HAIR_OK;
-    HAIR_TRY(hair_follower_pool_make(geometry->pool, geometry->groom, geometry->groom->followers, &made));
+    if (!geometry->follower.is_shared) return HAIR_OK;
+    HAIR_TRY(hair_geometry_make_followers(geometry, geometry->groom->followers, false, &made));
     hair_geometry_swap_followers(geometry, &made);
-    hair_follower_pool_release(geometry->pool, &made);
+    hair_geometry_free_followers(geometry->gl, &made);
     return HAIR_OK;
 }
 

@@ -75,14 +75,14 @@ uint64_t hair_test_gpu_bytes(struct hair_test* test)
     return memory.bytes;
 }
 
-uint64_t hair_test_shared_bytes(const hair_context* context)
+uint64_t hair_test_groom_bytes(const hair_groom* groom)
 {
-    uint64_t bytes = context->batch.samples.room * sizeof(uint32_t);
-    for (uint32_t i = 0; i < context->follower_pool.count; ++i) {
-        const hair_groom* groom = context->follower_pool.pooled[i].followers.groom;
-        if (groom) bytes += hair_groom_follower_bytes(groom);
-    }
-    return bytes;
+    return hair_groom_follower_bytes(groom) + groom->info.guide_vertex_count * sizeof *groom->rest;
+}
+
+uint64_t hair_test_sample_bytes(const hair_context* context)
+{
+    return context->batch.samples.room * sizeof(uint32_t);
 }
 
 // Return 1 for a program or a shader that is not deleted. Mesa keeps the program of the last draw
