@@ -5,6 +5,7 @@
 
 #include <string.h>
 
+#include "lib/draw/batch.h"
 #include "lib/draw/draw.h"
 
 static const hair_pass passes[] = {HAIR_PASS_COLOR, HAIR_PASS_DEPTH, HAIR_PASS_MOTION, HAIR_PASS_ID,
@@ -13,9 +14,11 @@ static const hair_pass passes[] = {HAIR_PASS_COLOR, HAIR_PASS_DEPTH, HAIR_PASS_M
 
 struct fixture {
     struct hair_geometry geometry;
+    hair_groom groom;
     struct hair_lengths lengths;
     struct hair_lighting lighting;
     struct hair_renderer renderer;
+    struct hair_batch batch;
     struct hair_gl_shader shader;
     struct hair_gl gl;
     hair_lod lod;
@@ -43,6 +46,8 @@ static struct fixture* start(void)
     f.renderer.gl = &f.gl;
     f.renderer.geometry = &f.geometry;
     f.renderer.lighting = &f.lighting;
+    f.renderer.batch = &f.batch;
+    f.geometry.groom = &f.groom;
     f.geometry.look = hair_look_default();
     f.geometry.lengths = &f.lengths;
     f.lod = hair_lod_default();
