@@ -166,6 +166,37 @@ static void parts_of_batches_have_the_same_pixels(void** state)
     finish(&scene);
 }
 
+// Heads that no batch may draw, because the application tests stencil, use the same samples: all at
+// once, a few at once, and one after the other.
+static void heads_use_the_same_samples_in_turns(void** state)
+{
+    static const size_t max[] = {1, 4 * SIDE * SIDE, 100 * SIDE * SIDE};
+    size_t room[3];
+    for (int i = 0; i < 3; ++i) {
+        struct batch_scene scene;
+        start(state, 0, &scene);
+        struct hair_gl* gl = &scene.test->context->gl;
+        struct hair_samples* samples = &scene.test->context->batch.samples;
+        const bool records = gl->records;
+        const size_t usual = samples->max;
+        gl->records = true; // llvmpipe does not profit, but must give the same bits.
+        samples->max = max[i];
+        step(&scene, 1);
+        glEnable(GL_STENCIL_TEST);
+        assert_true(compare(&scene) > 0.05);
+        glDisable(GL_STENCIL_TEST);
+        assert_int_equal(count_places(&scene), 0);
+        room[i] = samples->room;
+        gl->records = records;
+        samples->max = usual;
+        finish(&scene);
+        assert_int_equal(samples->nearest, 0);
+    }
+    print_message("    %zu, %zu and %zu numbers\n", room[0], room[1], room[2]);
+    assert_true(room[0] <= 3 * SIDE * SIDE + 64 && room[2] > 2 * room[0]);
+    assert_true(room[0] < room[1] && room[1] < room[2]);
+}
+
 // Far heads have their places from the first frame on, and no buffers of their own.
 static void far_heads_need_no_buffers_of_their_own(void** state)
 {
@@ -273,6 +304,7 @@ int main(void)
         HAIR_TEST(batches_have_the_pixels_of_single_draws),
         HAIR_TEST(batches_have_the_samples_of_single_draws),
         HAIR_TEST(parts_of_batches_have_the_same_pixels),
+        HAIR_TEST(heads_use_the_same_samples_in_turns),
         HAIR_TEST(far_heads_need_no_buffers_of_their_own),
         HAIR_TEST(places_follow_the_size_of_heads),
         HAIR_TEST(waiting_heads_keep_their_places),
