@@ -79,7 +79,7 @@ bool has_rounds() { return true; }
 // Return the depth that vertex i may have, and how far a deeper vertex comes out in a substep.
 vec2 granted_to(uint i)
 {
-    float rise = min(EMERGE * SUBSTEP, 0.5 * guide_length / float(guide_count - 1u));
+    float rise = min(EMERGE * SUBSTEP, 0.5 * segment_length());
     return vec2(max(sunk - RISE * length(GET(place)), 0.0), rise);
 }
 

@@ -20,7 +20,7 @@ vec3 plane_pressers;
 outcome untouched(vec3 want) { return outcome(want, vec4(0.0), vec4(0.0), vec3(0.0), 0.0); }
 
 // Return the distance from a collider up to which its plane is kept, m.
-float near_distance() { return NEAR_PLANE * guide_length / float(guide_count - 1u); }
+float near_distance() { return NEAR_PLANE * segment_length(); }
 
 // Return whether a plane holds a vertex above a collider back if a Newton step moves it.
 bool is_near(float depth) { return depth > -near_distance(); }

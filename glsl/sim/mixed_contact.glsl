@@ -51,7 +51,7 @@ LOCAL(vec3, pressing);       // Reaction that friction is measured by, m/s^2
 void find_planes_of(uint i, bool first, vec3 head_moved)
 {
     vec3  way   = local(chain) - local(planes_at);
-    float stays = PLANE_STAYS * guide_length / float(guide_count - 1u);
+    float stays = PLANE_STAYS * segment_length();
     if (!first && dot(way, way) < stays * stays) return;
     outcome made = allowed(i, local(chain), local(reachable), BITS(0u), head_moved, local(met));
     local(planes_at)        = local(chain);

@@ -46,7 +46,7 @@ void put_mobility(uint i)
     // Two held neighbours would leave the force between them nothing to act on.
     // The tip has no segment of its own, so that the mean length of a segment is taken.
     if (PINNED && local(slack) == 0.0)
-        w = mat3(HELD * SUBSTEP * SUBSTEP * float(guide_count - 1u) / guide_length);
+        w = mat3(HELD * SUBSTEP * SUBSTEP / segment_length());
     symmetric half_w = half_of(w);
     PUT_ROW(mobility_diagonal, i, half_w.diagonal);
     PUT_ROW(mobility_beside, i, half_w.beside);

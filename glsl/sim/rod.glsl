@@ -45,6 +45,9 @@ bool root_is_free;
 
 #include "sim/damping.glsl"
 
+// Return the mean length of segments, m.
+float segment_length() { return guide_length / float(guide_count - 1u); }
+
 vec3 rest_from_root(uint i)
 {
     return rest[guide_first + min(i, guide_count - 1u)].position.xyz - root_at_rest;
