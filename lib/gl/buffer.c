@@ -112,13 +112,6 @@ hair_result hair_gl_shared_buffer(struct hair_gl* gl, const char* label, size_t 
     return HAIR_OK;
 }
 
-hair_result hair_gl_shared_storage(struct hair_gl* gl, const char* label, size_t size, const void* data,
-                                   GLuint* out)
-{
-    HAIR_TRY(check_storage_size(gl, label, size));
-    return hair_gl_shared_buffer(gl, label, size, data, out);
-}
-
 hair_result hair_gl_undefined_storage(struct hair_gl* gl, hair_gl_category category, const char* label,
                                       size_t size, GLuint* out)
 {

@@ -48,9 +48,6 @@ hair_result hair_gl_storage(struct hair_gl* gl, hair_gl_category category, const
 // user. No report counts its memory.
 hair_result hair_gl_shared_buffer(struct hair_gl* gl, const char* label, size_t size, const void* data,
                                   GLuint* out);
-// Do this for a buffer that shaders read as storage.
-hair_result hair_gl_shared_storage(struct hair_gl* gl, const char* label, size_t size, const void* data,
-                                   GLuint* out);
 // Create a storage buffer of at least 16 bytes with undefined contents, which costs no upload. A
 // pass must write all of the buffer before another pass reads it.
 hair_result hair_gl_undefined_storage(struct hair_gl* gl, hair_gl_category category, const char* label,

@@ -75,8 +75,8 @@ hair_result hair_sim_create(struct hair_sim* sim, struct hair_gl* gl, const stru
     size_t state = sim->guide_vertices * sizeof(struct hair_state);
     HAIR_TRY(hair_gl_storage(gl, HAIR_GL_CATEGORY_SOLVE, "hair guides", sim->guides * sizeof *groom->guides,
                              groom->guides, &sim->guide));
-    HAIR_TRY(hair_gl_shared_storage(gl, "hair rest", sim->guide_vertices * sizeof *groom->rest, groom->rest,
-                                    &sim->rest));
+    HAIR_TRY(hair_gl_storage(gl, HAIR_GL_CATEGORY_SOLVE, "hair rest",
+                             sim->guide_vertices * sizeof *groom->rest, groom->rest, &sim->rest));
     // hair_sim_reset() writes all state of a new simulation.
     HAIR_TRY(hair_gl_undefined_storage(gl, HAIR_GL_CATEGORY_SOLVE, "hair state", state, &sim->state));
     HAIR_TRY(create_solver_stats(sim, groom));

@@ -105,12 +105,9 @@ static hair_result make_lengths(struct hair_sim* sim, const float* guide_fractio
     HAIR_TRY(hair_gl_storage(gl, HAIR_GL_CATEGORY_SOLVE, "hair guides",
                              sim->guides * sizeof(struct hair_guide), guides_with(&made->lengths),
                              &made->guide));
-    size_t size = sim->guide_vertices * sizeof(struct hair_rest);
-    if (made->lengths.guides)
-        HAIR_TRY(
-            hair_gl_storage(gl, HAIR_GL_CATEGORY_SOLVE, "hair rest", size, made->lengths.rest, &made->rest));
-    else
-        HAIR_TRY(hair_gl_shared_storage(gl, "hair rest", size, made->lengths.groom->rest, &made->rest));
+    HAIR_TRY(hair_gl_storage(gl, HAIR_GL_CATEGORY_SOLVE, "hair rest",
+                             sim->guide_vertices * sizeof(struct hair_rest), rest_with(&made->lengths),
+                             &made->rest));
     HAIR_TRY(list_changes(sim, made));
     return hair_gl_ensure_program(gl, change_pass(sim));
 }

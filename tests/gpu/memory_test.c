@@ -43,7 +43,7 @@ static uint64_t reported(struct hair_test_scene* f)
     hair_report_info info = hair_report_info_default();
     uint32_t count;
     hair_test_ok(f->test, hair_report(f->hair, true, &info, NULL, 0, 0, &count));
-    return info.bytes + hair_test_groom_bytes(f->hair->groom) + hair_test_sample_bytes(f->context);
+    return info.bytes + hair_groom_follower_bytes(f->hair->groom) + hair_test_sample_bytes(f->context);
 }
 
 // Check that everything an instance can have is counted once, and freed.
@@ -102,7 +102,7 @@ static void instances_share_the_strands_of_their_groom(void** state)
     hair_view view = hair_test_view_by(HAIR_RENDER_PATH_TESSELLATION);
     hair_instance *first = f.hair, *other = NULL;
     hair_group_look look = hair_group_look_default();
-    uint64_t strands = hair_test_groom_bytes(first->groom), one = memory_of(&f).bytes;
+    uint64_t strands = hair_groom_follower_bytes(first->groom), one = memory_of(&f).bytes;
     hair_desc desc = hair_desc_default();
     hair_test_ok(f.test, hair_create(f.context, first->groom, &desc, &other));
     uint64_t two = memory_of(&f).bytes;

@@ -167,7 +167,8 @@ static void reports_count_all_memory_of_each_instance(void** state)
         report(&other);
         hair_test_ok(f.scene.test, hair_get_memory(f.scene.context, &memory));
         assert_true(f.info.bytes > other.info.bytes && other.info.bytes > 0);
-        uint64_t common = hair_test_groom_bytes(f.scene.groom) + hair_test_groom_bytes(other.scene.groom) +
+        uint64_t common = hair_groom_follower_bytes(f.scene.groom) +
+                          hair_groom_follower_bytes(other.scene.groom) +
                           hair_test_sample_bytes(f.scene.context);
         assert_true(f.info.bytes + other.info.bytes + common == memory.bytes);
     }
@@ -177,7 +178,7 @@ static void reports_count_all_memory_of_each_instance(void** state)
     finish_beside(&other);
     report(&f);
     hair_test_ok(f.scene.test, hair_get_memory(f.scene.context, &memory));
-    uint64_t common = hair_test_groom_bytes(f.scene.groom) + hair_test_sample_bytes(f.scene.context);
+    uint64_t common = hair_groom_follower_bytes(f.scene.groom) + hair_test_sample_bytes(f.scene.context);
     assert_true(f.info.bytes + common == memory.bytes);
     hair_test_scene_free(&f.scene);
 }

@@ -75,11 +75,6 @@ uint64_t hair_test_gpu_bytes(struct hair_test* test)
     return memory.bytes;
 }
 
-uint64_t hair_test_groom_bytes(const hair_groom* groom)
-{
-    return hair_groom_follower_bytes(groom) + groom->info.guide_vertex_count * sizeof *groom->rest;
-}
-
 uint64_t hair_test_sample_bytes(const hair_context* context)
 {
     return context->batch.samples.room * sizeof(uint32_t);

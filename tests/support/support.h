@@ -43,8 +43,6 @@ int hair_test_end(void** state);
 uint32_t hair_test_blocks(const struct hair_test* test);
 // Return the memory of the GPU that the context has in use, in bytes.
 uint64_t hair_test_gpu_bytes(struct hair_test* test);
-// Return the memory that the instances of a groom share, in bytes: followers and the rest pose.
-uint64_t hair_test_groom_bytes(const hair_groom* groom);
 // Return the memory of samples of compute rasterisation, which all instances share, in bytes.
 uint64_t hair_test_sample_bytes(const hair_context* context);
 // Count the OpenGL objects that are not deleted, by trying all names.
