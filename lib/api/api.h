@@ -191,11 +191,9 @@ hair_result hair_check_position_buffer(const hair_context* context, const char* 
 
 // Functions of pace.c.
 
-// Return for how many frames hair of a size in pixels keeps what is kept for two frames up to the
-// size `limit`.
-uint32_t hair_find_interval(float limit, float pixels);
-// Note the size of hair in a view in colour. NULL `lod` wants a step in every frame.
-void hair_pace_note(hair_instance* hair, const hair_lod* lod, float pixels);
+struct hair_view_copy;
+// Note how large hair is in a view, and what the view would need to give up nothing.
+void hair_pace_note_size(hair_instance* hair, const struct hair_view_copy* copy);
 // Let the next step wait if its turn has not come. Return false if the step is due.
 bool hair_pace_wait(hair_instance* hair, double time);
 // Return the pose of the head with which hair is drawn.

@@ -1,8 +1,6 @@
 // draw.c - public calls that draw one instance or many.
 #include "lib/api/api.h"
 
-#include <math.h>
-
 // Check the framebuffer. Drawing into an incomplete one would raise the application's error flag
 // and draw nothing.
 static hair_result check_framebuffer(const hair_instance* hair)
@@ -105,37 +103,6 @@ static hair_result draw_surroundings(hair_instance* hair, const hair_view* view)
     return view->pass == HAIR_PASS_COLLIDERS ? draw_colliders(hair, view) : draw_air(hair, view);
 }
 
-// Let the light of small hair be kept, and let it be stepped in some frames only. `scale` is in
-// pixels per metre.
-static void note_intervals(hair_instance* hair, const hair_lod* lod, float scale)
-{
-    const hair_vec3 size = hair->renderer.rest_size;
-    float pixels = scale * fmaxf(size.x, fmaxf(size.y, size.z));
-    float light_pixels = fmaxf(lod->light_pixels, pixels * (1 / hair->sim.rate_factor - 1));
-    hair->renderer.light_age.interval = hair_find_interval(light_pixels, pixels);
-    hair->renderer.light_age.pace = hair->sim.interval;
-    hair_pace_note(hair, lod, pixels);
-}
-
-// Note how large hair is in a view, and what the view would need to give up nothing.
-static void note_size(hair_instance* hair, const struct hair_view_copy* copy)
-{
-    const hair_view* view = &copy->view;
-    struct hair_budget* budget = &hair->context->budget;
-    hair->renderer.sample_divisor = budget->ms > 0 ? budget->sample_divisor : 1;
-    bool is_main = view->pass == HAIR_PASS_COLOR || view->pass == HAIR_PASS_MOTION;
-    if (is_main && !view->lod) hair_pace_note(hair, NULL, 0);
-    if (!budget->ms && !view->lod) return;
-    budget->has_drawn |= budget->ms > 0;
-    if (!is_main) return;
-    const struct hair_pose* head = hair_shown_head(hair);
-    float scale = hair_draw_pixels_per_metre(&hair->renderer, head, view);
-    if (view->lod) note_intervals(hair, view->lod, scale);
-    if (!budget->ms) return;
-    hair->budget.pixels = fmaxf(hair->budget.pixels, 2 * hair->renderer.reach.w * scale);
-    if (!copy->has_lod) hair_budget_note(budget, hair_draw_full_importance(&hair->renderer, scale));
-}
-
 // Do everything before the pass that draws, with the context entered.
 static hair_result prepare_draw(hair_instance* hair, struct hair_draw_plan* plan)
 {
@@ -201,7 +168,7 @@ hair_result hair_draw(hair_instance* hair, const hair_view* view)
     HAIR_TRY(check_view(hair, view, &own));
     hair_make_plan(hair, &own.view, &plan);
     if (!is_to_be_drawn(hair, &plan)) return HAIR_OK;
-    note_size(hair, &own);
+    hair_pace_note_size(hair, &own);
     hair_result result = settle(&hair, &plan, 1);
     if (result) return result;
     hair_enter_frame(hair);
@@ -276,23 +243,26 @@ static void draw_batch(struct hair_gl* gl, struct list_part* part)
     }
 }
 
+// Return the numbers that the samples of a prepared instance take. 0 if it has failed.
+static size_t count_own_numbers(const struct list_part* part, uint32_t i)
+{
+    return part->result[i] ? 0 : hair_draw_count_numbers(&part->plan[i]);
+}
+
 // Return the end of the instances from `first` on whose samples there is room for. An instance
 // without room fails.
 static uint32_t find_end_of_samples(struct list_part* part, uint32_t first)
 {
     struct hair_batch* batch = &part->of[0]->context->batch;
-    size_t numbers = 0;
+    size_t numbers = 0, own = count_own_numbers(part, first);
     uint32_t end = first;
     for (; end < part->drawn; ++end) {
-        size_t own = part->result[end] ? 0 : hair_draw_count_numbers(&part->plan[end]);
-        if (numbers && numbers + own > batch->samples.max) break;
-        numbers += own;
+        size_t more = count_own_numbers(part, end);
+        if (numbers && numbers + more > batch->samples.max) break;
+        numbers += more;
     }
     if (!hair_samples_ensure(batch->gl, numbers, &batch->samples)) return end;
-    hair_result* result = &part->result[first];
-    if (!*result)
-        *result =
-            hair_samples_ensure(batch->gl, hair_draw_count_numbers(&part->plan[first]), &batch->samples);
+    if (own) part->result[first] = hair_samples_ensure(batch->gl, own, &batch->samples);
     return first + 1;
 }
 
@@ -301,7 +271,7 @@ static void draw_prepared(struct hair_gl* gl, struct list_part* part, uint32_t f
 {
     size_t numbers = 0;
     for (uint32_t i = first; i < end; ++i) {
-        size_t own = part->result[i] ? 0 : hair_draw_count_numbers(&part->plan[i]);
+        size_t own = count_own_numbers(part, i);
         if (!own) continue;
         hair_gl_set_owner(gl, &part->of[i]->memory, &part->of[i]->profiler);
         hair_gl_resume_stream(gl, i);
@@ -358,7 +328,7 @@ static hair_result draw_all(struct list_part* part, const struct hair_view_copy*
     for (uint32_t i = 0; i < part->count; ++i) {
         hair_make_plan(part->hair[i], view, &part->plan[part->drawn]);
         if (!is_to_be_drawn(part->hair[i], &part->plan[part->drawn])) continue;
-        note_size(part->hair[i], copy);
+        hair_pace_note_size(part->hair[i], copy);
         part->of[part->drawn++] = part->hair[i];
     }
     if (!part->drawn) return HAIR_OK;

@@ -8,7 +8,9 @@
 // Relative size that hair must exceed before a shorter interval or stride is restored.
 #define LAG 1.2f
 
-uint32_t hair_find_interval(float limit, float pixels)
+// Return for how many frames hair of a size in pixels keeps what is kept for two frames up to the
+// size `limit`.
+static uint32_t find_interval(float limit, float pixels)
 {
     return (uint32_t)fminf(1 + floorf(limit / fmaxf(pixels, 1)), MAX_INTERVAL);
 }
@@ -30,12 +32,13 @@ static uint32_t choose(uint32_t (*find)(float limit, float pixels), float limit,
     return lagging < last ? lagging : last;
 }
 
-void hair_pace_note(hair_instance* hair, const hair_lod* lod, float pixels)
+// Note the size of hair in a view in colour. NULL `lod` wants a step in every frame.
+static void note_pace(hair_instance* hair, const hair_lod* lod, float pixels)
 {
     struct hair_pace* pace = &hair->pace;
     uint32_t interval = 1, stride = 1;
     if (lod) {
-        interval = choose(hair_find_interval, lod->motion_pixels, pixels, hair->sim.interval);
+        interval = choose(find_interval, lod->motion_pixels, pixels, hair->sim.interval);
         stride = choose(find_stride, lod->guide_pixels, pixels, hair->sim.guide_level.wanted);
     }
     if (!pace->wanted_interval || interval < pace->wanted_interval) pace->wanted_interval = interval;
@@ -64,4 +67,34 @@ bool hair_pace_wait(hair_instance* hair, double time)
 const struct hair_pose* hair_shown_head(const hair_instance* hair)
 {
     return hair->pace.pending > 0 ? &hair->pace.head : &hair->sim.head_at_last_step;
+}
+
+// Let the light of small hair be kept, and let it be stepped in some frames only. `scale` is in
+// pixels per metre.
+static void note_intervals(hair_instance* hair, const hair_lod* lod, float scale)
+{
+    const hair_vec3 size = hair->renderer.rest_size;
+    float pixels = scale * fmaxf(size.x, fmaxf(size.y, size.z));
+    float light_pixels = fmaxf(lod->light_pixels, pixels * (1 / hair->sim.rate_factor - 1));
+    hair->renderer.light_age.interval = find_interval(light_pixels, pixels);
+    hair->renderer.light_age.pace = hair->sim.interval;
+    note_pace(hair, lod, pixels);
+}
+
+void hair_pace_note_size(hair_instance* hair, const struct hair_view_copy* copy)
+{
+    const hair_view* view = &copy->view;
+    struct hair_budget* budget = &hair->context->budget;
+    hair->renderer.sample_divisor = budget->ms > 0 ? budget->sample_divisor : 1;
+    bool is_main = view->pass == HAIR_PASS_COLOR || view->pass == HAIR_PASS_MOTION;
+    if (is_main && !view->lod) note_pace(hair, NULL, 0);
+    if (!budget->ms && !view->lod) return;
+    budget->has_drawn |= budget->ms > 0;
+    if (!is_main) return;
+    const struct hair_pose* head = hair_shown_head(hair);
+    float scale = hair_draw_pixels_per_metre(&hair->renderer, head, view);
+    if (view->lod) note_intervals(hair, view->lod, scale);
+    if (!budget->ms) return;
+    hair->budget.pixels = fmaxf(hair->budget.pixels, 2 * hair->renderer.reach.w * scale);
+    if (!copy->has_lod) hair_budget_note(budget, hair_draw_full_importance(&hair->renderer, scale));
 }
