@@ -77,7 +77,7 @@ static const struct lod {
             {"dynamic", 0, true}};
 
 // Segments of a strand, powers of two, and all numbers in the range of the close comparison.
-enum { MIN_SEGMENTS = 4, FEWEST_OF_CLOSE = 8, MAX_OF_CLOSE = 32, MAX_SEGMENTS = 64 };
+enum { MIN_SEGMENTS = 4, FEWEST_OF_CLOSE = 8, MAX_OF_CLOSE = 32, FINE_SEGMENTS = 48, MAX_SEGMENTS = 64 };
 
 // Samples of a pixel. Software rasterizers draw four pixels faster than one pixel with four
 // samples.
@@ -230,6 +230,16 @@ static bool is_between(uint32_t segments)
     return (segments & (segments - 1)) != 0;
 }
 
+// Return whether ribbons of the compute rasteriser are wanted with many segments, for which
+// software rasterizers take too long. With 32 segments, chords of wavy strands are farther from the
+// strand than the strand is wide.
+static bool is_fine(const struct bench* bench, const struct setting* setting)
+{
+    return !bench->software && !bench->options.quick && setting->path->path == HAIR_RENDER_PATH_COMPUTE &&
+           setting->primitive == primitives && setting->lod == lods &&
+           (setting->segments == FINE_SEGMENTS || setting->segments == MAX_SEGMENTS);
+}
+
 static bool is_quick(uint32_t segments)
 {
     return segments == 8 || segments == 32;
@@ -256,7 +266,7 @@ static bool is_wanted_of_width(const struct bench* bench, const struct subject* 
                                const struct setting* setting)
 {
     bool usual = setting->segments == 32, all = setting->lod == lods;
-    if (is_wanted_closely(bench, subject, setting)) return true;
+    if (is_wanted_closely(bench, subject, setting) || is_fine(bench, setting)) return true;
     if (is_between(setting->segments)) return false;
     if (setting->path->path == HAIR_RENDER_PATH_PROCEDURAL || setting->lod->fraction < 0.25f) return false;
     bool quick = usual && setting->lod->quick && setting->samples->quick &&
