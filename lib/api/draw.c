@@ -129,6 +129,7 @@ static hair_result check_view(hair_instance* hair, const hair_view* view, struct
 {
     HAIR_TRY(hair_copy_view(hair, view, own));
     HAIR_TRY(hair_check_current(hair->context));
+    hair_gl_read_draw_state(&hair->context->gl);
     hair_budget_update(&hair->context->gl, &hair->context->budget);
     hair_reduce_view(hair, own);
     hair_result result = hair_check_view_textures(hair, &own->view);

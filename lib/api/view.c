@@ -40,7 +40,10 @@ hair_result hair_precompile(hair_instance* hair, const hair_view* view, bool* re
     }
     HAIR_TRY(hair_check_current(hair->context));
     struct hair_draw_plan plan;
-    if (view) hair_make_plan(hair, &own.view, &plan);
+    if (view) {
+        hair_gl_read_draw_state(gl);
+        hair_make_plan(hair, &own.view, &plan);
+    }
     hair_enter_unprofiled(hair);
     hair_gl_begin_async(gl);
     bool may_derive = view && own.view.lod && own.view.lod->guide_pixels > 0;

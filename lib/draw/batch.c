@@ -8,14 +8,12 @@
 
 bool hair_batch_is_possible(struct hair_gl* gl)
 {
-    GLint function = GL_ALWAYS, blocks = 0;
+    GLint blocks = 0;
     GLboolean writes = GL_FALSE;
     gl->GetIntegerv(GL_MAX_VERTEX_SHADER_STORAGE_BLOCKS, &blocks);
-    gl->GetIntegerv(GL_DEPTH_FUNC, &function);
     gl->GetBooleanv(GL_DEPTH_WRITEMASK, &writes);
-    bool is_ordered =
-        function == GL_LESS || function == GL_LEQUAL || function == GL_GREATER || function == GL_GEQUAL;
-    return blocks > 0 && writes && is_ordered && gl->IsEnabled(GL_DEPTH_TEST) && !gl->IsEnabled(GL_BLEND) &&
+    bool is_ordered = gl->draw_state.tests_depth && hair_draw_depth_direction(gl) != 0;
+    return blocks > 0 && writes && is_ordered && !gl->IsEnabled(GL_BLEND) &&
            !gl->IsEnabled(GL_STENCIL_TEST) && !gl->IsEnabled(GL_COLOR_LOGIC_OP);
 }
 

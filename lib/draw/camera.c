@@ -24,31 +24,26 @@ hair_vec4 hair_draw_find_eye(const hair_mat4* view, const float projection[16])
 // Add the jitter to the projection. Jitter shifts the picture by so many pixels.
 void hair_draw_project(const struct hair_renderer* renderer, const hair_view* view, float projection[16])
 {
-    GLfloat viewport[4] = {0};
+    const GLfloat* viewport = renderer->gl->draw_state.viewport;
     const float* by = view->jitter;
     memcpy(projection, view->projection, sizeof view->projection);
     if (by[0] == 0 && by[1] == 0) return;
-    renderer->gl->GetFloati_v(GL_VIEWPORT, 0, viewport);
     for (int column = 0; column < 4; ++column)
         for (int i = 0; i < 2; ++i)
             projection[4 * column + i] += 2 * by[i] / fmaxf(viewport[2 + i], 1) * projection[4 * column + 3];
 }
 
-void hair_draw_clip_to_unit_matrix(struct hair_gl* gl, float to_unit[16])
+void hair_draw_clip_to_unit_matrix(const struct hair_gl* gl, float to_unit[16])
 {
-    GLint mode = GL_NEGATIVE_ONE_TO_ONE, origin = GL_LOWER_LEFT;
-    gl->GetIntegerv(GL_CLIP_DEPTH_MODE, &mode);
-    gl->GetIntegerv(GL_CLIP_ORIGIN, &origin);
     float half[16] = {[0] = 0.5f, [5] = 0.5f, [10] = 1, [12] = 0.5f, [13] = 0.5f, [15] = 1};
-    if (origin == GL_UPPER_LEFT) half[5] = -0.5f;
-    if (mode != GL_ZERO_TO_ONE) half[10] = half[14] = 0.5f;
+    if (gl->draw_state.is_upside_down) half[5] = -0.5f;
+    if (!gl->draw_state.is_zero_to_one) half[10] = half[14] = 0.5f;
     memcpy(to_unit, half, sizeof half);
 }
 
-float hair_draw_depth_direction(struct hair_gl* gl)
+float hair_draw_depth_direction(const struct hair_gl* gl)
 {
-    GLint function = GL_LESS;
-    gl->GetIntegerv(GL_DEPTH_FUNC, &function);
+    const GLenum function = gl->draw_state.depth_function;
     if (function == GL_LESS || function == GL_LEQUAL) return 1;
     return function == GL_GREATER || function == GL_GEQUAL ? -1.0f : 0.0f;
 }

@@ -3,13 +3,10 @@
 #include "lib/draw/params.h"
 
 // Return the offset and scale from depth in clip space to depth in the framebuffer.
-static hair_vec4 find_depth(struct hair_gl* gl)
+static hair_vec4 find_depth(const struct hair_gl* gl)
 {
-    GLint mode = GL_NEGATIVE_ONE_TO_ONE;
-    GLfloat range[2] = {0, 1};
-    gl->GetIntegerv(GL_CLIP_DEPTH_MODE, &mode);
-    gl->GetFloatv(GL_DEPTH_RANGE, range);
-    if (mode == GL_ZERO_TO_ONE) return (hair_vec4){range[0], range[1] - range[0], 0, 0};
+    const GLfloat* range = gl->draw_state.depth_range;
+    if (gl->draw_state.is_zero_to_one) return (hair_vec4){range[0], range[1] - range[0], 0, 0};
     return (hair_vec4){0.5f * (range[0] + range[1]), 0.5f * (range[1] - range[0]), 0, 0};
 }
 

@@ -101,20 +101,17 @@ static unsigned outside_planes(const double clip[4], const double edge[2])
 bool hair_draw_is_out_of_view(const struct hair_renderer* renderer, const struct hair_pose* head,
                               const hair_view* view)
 {
-    const struct hair_gl* gl = renderer->gl;
-    GLfloat viewport[4] = {0};
+    const struct hair_gl_draw_state* state = &renderer->gl->draw_state;
     double edge[2], reach = hair_reach_beyond(renderer, view->lod);
     unsigned outside = (1u << SIDES) - 1;
-    gl->GetFloati_v(GL_VIEWPORT, 0, viewport);
-    for (int k = 0; k < 2; ++k) edge[k] = hair_draw_edge(viewport[2 + k], view->jitter[k]);
+    for (int k = 0; k < 2; ++k) edge[k] = hair_draw_edge(state->viewport[2 + k], view->jitter[k]);
     for (int i = 0; i < 8 && outside; ++i) {
         double clip[4];
         find_corner(view, head, corner_of(&renderer->extent, reach, i), clip);
         outside &= outside_planes(clip, edge);
     }
     // If depth clamping is enabled, the near and far planes cut nothing off.
-    if (outside & (1u << FAR | 1u << NEAR))
-        if (gl->IsEnabled(GL_DEPTH_CLAMP)) outside &= ~(1u << FAR | 1u << NEAR);
+    if (state->clamps_depth) outside &= ~(1u << FAR | 1u << NEAR);
     return outside != 0;
 }
 

@@ -26,8 +26,7 @@ static void write_sides(const struct hair_renderer* renderer, const hair_view* v
                         struct hair_draw_params* out)
 {
     float matrix[16], projection[16], clip[16];
-    GLfloat viewport[4] = {0};
-    renderer->gl->GetFloati_v(GL_VIEWPORT, 0, viewport);
+    const GLfloat* viewport = renderer->gl->draw_state.viewport;
     memcpy(matrix, &out->view, sizeof matrix);
     memcpy(projection, &out->view_to_clip, sizeof projection);
     hair_mat4_multiply(projection, matrix, clip);
@@ -41,8 +40,7 @@ static void write_sides(const struct hair_renderer* renderer, const hair_view* v
 // Return how many pixels a unit step along the view's y axis covers where w of clip space is 1.
 static float find_scale(const struct hair_renderer* renderer, const float projection[16])
 {
-    GLfloat viewport[4] = {0};
-    renderer->gl->GetFloati_v(GL_VIEWPORT, 0, viewport);
+    const GLfloat* viewport = renderer->gl->draw_state.viewport;
     return 0.5f * hypotf(projection[4] * viewport[2], projection[5] * viewport[3]);
 }
 

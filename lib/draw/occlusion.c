@@ -19,10 +19,9 @@ void hair_draw_free_occlusion(struct hair_renderer* renderer)
 
 // Write the matrix from clip space to the texture. xy map to [0, 1], z to the depth that the
 // application stores.
-static void write_texture(struct hair_gl* gl, float to_texture[16], float range[2])
+static void write_texture(const struct hair_gl* gl, float to_texture[16], float range[2])
 {
-    range[0] = 0, range[1] = 1;
-    gl->GetFloatv(GL_DEPTH_RANGE, range);
+    memcpy(range, gl->draw_state.depth_range, sizeof gl->draw_state.depth_range);
     hair_draw_clip_to_unit_matrix(gl, to_texture);
     float far = range[1] - range[0];
     to_texture[10] *= far;
@@ -96,10 +95,9 @@ bool hair_draw_find_occlusion(const struct hair_renderer* renderer, const struct
     struct hair_gl* gl = renderer->gl;
     hair_mat4 own = hair_mat4_from_head(view->view, head);
     float clip[16], to_texture[16], matrix[16], range[2];
-    GLfloat viewport[4] = {0};
+    const GLfloat* viewport = gl->draw_state.viewport;
     memset(out, 0, sizeof *out);
     if (!hair_draw_uses_occlusion(view)) return false;
-    gl->GetFloati_v(GL_VIEWPORT, 0, viewport);
     find_size(gl, view->occluder_depth, out);
     if (!out->width || !out->height) return false; // A lost context answers nothing.
     find_clip(renderer, head, view, &own, clip);

@@ -9,17 +9,14 @@
 static void write_clip(const struct hair_renderer* renderer, const struct hair_pose* head,
                        const hair_view* view, struct hair_draw_params* out)
 {
-    GLfloat viewport[4] = {0};
-    GLint samples = 0;
+    const struct hair_gl_draw_state* state = &renderer->gl->draw_state;
     float projection[16];
     hair_draw_project(renderer, view, projection);
     memcpy(&out->view_to_clip, projection, sizeof out->view_to_clip);
     if (!hair_draw_uses_analytic_coverage(view)) return;
-    renderer->gl->GetFloati_v(GL_VIEWPORT, 0, viewport);
-    renderer->gl->GetIntegerv(GL_SAMPLES, &samples);
     // With multisampling, the ribbon must contain whole pixels.
-    out->viewport =
-        (hair_vec4){viewport[2], viewport[3], samples > 1 ? 2 * DIAGONAL : DIAGONAL, view->opacity};
+    float diagonal = state->samples > 1 ? 2 * DIAGONAL : DIAGONAL;
+    out->viewport = (hair_vec4){state->viewport[2], state->viewport[3], diagonal, view->opacity};
     hair_vec3 at = hair_draw_find_middle(renderer, head);
     hair_vec3 eye = {out->eye.x, out->eye.y, out->eye.z};
     float middle = out->eye.w > 0 ? hair_distance(eye, at) : -hair_dot(eye, at);

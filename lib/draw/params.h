@@ -22,10 +22,10 @@ hair_vec4 hair_draw_find_eye(const hair_mat4* view, const float projection[16]);
 // Compute the projection of a view with its jitter, for the current viewport.
 void hair_draw_project(const struct hair_renderer* renderer, const hair_view* view, float projection[16]);
 // Write the matrix from clip space to the viewport, with xy and z in [0, 1].
-void hair_draw_clip_to_unit_matrix(struct hair_gl* gl, float to_unit[16]);
+void hair_draw_clip_to_unit_matrix(const struct hair_gl* gl, float to_unit[16]);
 // Return 1 if the application's depth test treats larger depth as farther, -1 if smaller. Return 0
 // if it does not order depths.
-float hair_draw_depth_direction(struct hair_gl* gl);
+float hair_draw_depth_direction(const struct hair_gl* gl);
 
 // Return the cell size of the self-shadow grid for a view, in metres. Defined in lod.c.
 float hair_draw_cell(const struct hair_renderer* renderer, const hair_view* view);

@@ -58,12 +58,10 @@ static const uint8_t method_of[KINDS][3][2] = {
 static bool has_few_samples(const struct hair_renderer* renderer)
 {
     const struct hair_gl* gl = renderer->gl;
-    GLfloat viewport[4] = {0};
-    GLint samples = 0;
-    gl->GetFloati_v(GL_VIEWPORT, 0, viewport);
-    gl->GetIntegerv(GL_SAMPLES, &samples);
-    if (samples > HAIR_RASTER_SAMPLES) return false;
-    double bytes = (double)viewport[2] * (double)viewport[3] * fmax(samples, 1) * SAMPLE_BYTES;
+    const struct hair_gl_draw_state* state = &gl->draw_state;
+    if (state->samples > HAIR_RASTER_SAMPLES) return false;
+    double pixels = (double)state->viewport[2] * (double)state->viewport[3];
+    double bytes = pixels * fmax(state->samples, 1) * SAMPLE_BYTES;
     double had = (double)renderer->batch->samples.room * sizeof(uint32_t);
     if (bytes <= had) return true;
     return bytes < 1e12 && hair_gl_fits(gl, (uint64_t)bytes, sizeof(uint32_t)) &&

@@ -13,17 +13,14 @@
 #define BESIDE 2.0f // Pixels of margin around those that hair covers.
 
 // Find the positions of the samples in a pixel, or of one in `divisor` samples.
-static void find_samples(struct hair_gl* gl, uint32_t divisor, struct hair_raster_params* out)
+static void find_samples(const struct hair_gl_draw_state* state, uint32_t divisor,
+                         struct hair_raster_params* out)
 {
-    GLint samples = 0;
-    GLfloat at[2] = {0.5f, 0.5f};
-    gl->GetIntegerv(GL_SAMPLES, &samples);
-    out->samples = samples > 1 && gl->IsEnabled(GL_MULTISAMPLE) ? (uint32_t)samples : 1;
+    static const GLfloat middle[2] = {0.5f, 0.5f};
+    out->samples = state->multisamples ? state->samples : 1;
     if (divisor > 1) out->samples = out->samples > divisor ? out->samples / divisor : 1;
-    for (uint32_t i = 0; i < out->samples && i < HAIR_RASTER_SAMPLES; ++i) {
-        if (out->samples > 1) gl->GetMultisamplefv(GL_SAMPLE_POSITION, i, at);
-        memcpy((float*)out->at + 2 * i, at, sizeof at);
-    }
+    memcpy(out->at, out->samples > 1 ? state->sample[0] : middle,
+           out->samples > 1 ? sizeof state->sample : sizeof middle);
 }
 
 // Return the number of pixels along one axis of the viewport that hair can cover. Set *first to the
@@ -97,12 +94,11 @@ static uint32_t find_fraction_bits(size_t vertices)
 
 bool hair_draw_find_depth_test(struct hair_gl* gl, struct hair_depth_test* out)
 {
-    GLint framebuffer = 0, type = GL_NONE, name = 0, level = 0, base = 0, function = GL_LESS, samples = 0;
+    GLint framebuffer = 0, type = GL_NONE, name = 0, level = 0, base = 0;
+    const GLenum function = gl->draw_state.depth_function;
     memset(out, 0, sizeof *out);
-    gl->GetIntegerv(GL_SAMPLES, &samples);
-    if (samples > 1) return false;
-    gl->GetIntegerv(GL_DEPTH_FUNC, &function);
-    if (!gl->IsEnabled(GL_DEPTH_TEST) || function == GL_ALWAYS) return true;
+    if (gl->draw_state.samples > 1) return false;
+    if (!gl->draw_state.tests_depth || function == GL_ALWAYS) return true;
     gl->GetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &framebuffer);
     const float direction = hair_draw_depth_direction(gl);
     if (!framebuffer || direction == 0) return false;
@@ -125,13 +121,12 @@ bool hair_draw_find_depth_test(struct hair_gl* gl, struct hair_depth_test* out)
 bool hair_draw_find_raster(const struct hair_renderer* renderer, const struct hair_pose* head,
                            struct hair_draw_plan* plan)
 {
-    struct hair_gl* gl = renderer->gl;
+    const struct hair_gl* gl = renderer->gl;
+    const struct hair_gl_draw_state* state = &gl->draw_state;
     struct hair_raster_params* out = &plan->raster;
-    GLfloat viewport[4] = {0}, range[2] = {0, 1};
+    const GLfloat *viewport = state->viewport, *range = state->depth_range;
     float unit[16], matrix[16], window[4];
     memset(out, 0, sizeof *out);
-    gl->GetFloati_v(GL_VIEWPORT, 0, viewport);
-    gl->GetFloatv(GL_DEPTH_RANGE, range);
     hair_draw_clip_to_unit_matrix(gl, unit);
     find_place(renderer, head, plan->view, unit, matrix, window);
     out->columns = find_pixels(viewport[0], viewport[2], window[0], window[2], &out->first_x);
@@ -140,14 +135,14 @@ bool hair_draw_find_raster(const struct hair_renderer* renderer, const struct ha
     write_pixels(viewport, unit, matrix, out);
     out->depth_from = range[0];
     out->depth_by = range[1] - range[0];
-    out->clamps = gl->IsEnabled(GL_DEPTH_CLAMP);
+    out->clamps = state->clamps_depth;
     out->encode = (hair_uint)plan->view->encode;
     out->flips = hair_draw_depth_direction(gl) * out->depth_by < 0 ? UINT32_MAX : 0;
     out->across = (out->columns + HAIR_RASTER_TILE - 1) / HAIR_RASTER_TILE;
     out->tiles = out->across * ((out->rows + HAIR_RASTER_TILE - 1) / HAIR_RASTER_TILE);
     out->tests = plan->depth_test.tests;
     out->fraction_bits = find_fraction_bits(hair_geometry_count_vertices(renderer->geometry));
-    find_samples(gl, renderer->sample_divisor, out);
+    find_samples(state, renderer->sample_divisor, out);
     return true;
 }
 
@@ -263,7 +258,7 @@ void hair_draw_resolve_tiles(struct hair_renderer* renderer, const struct hair_d
     struct hair_gl* gl = renderer->gl;
     HAIR_ASSERT(plan->raster.tiles > 0);
     // Opacity has been tested against depth before.
-    bool tests_depth = plan->blending && gl->IsEnabled(GL_DEPTH_TEST);
+    bool tests_depth = plan->blending && gl->draw_state.tests_depth;
     if (tests_depth) gl->Disable(GL_DEPTH_TEST);
     hair_draw_issue_tiles(gl, renderer->raster.tile, 1);
     if (tests_depth) gl->Enable(GL_DEPTH_TEST);

@@ -76,6 +76,19 @@ struct hair_gl_saved {
     GLsizeiptr storage_size[HAIR_BIND_REDUCTION + 1], uniform_size[HAIR_BIND_FIELD + 1];
 };
 
+// What the application has set for drawing. See draw_state.c.
+struct hair_gl_draw_state {
+    GLfloat viewport[4]; // Lower left corner and size, pixels.
+    GLfloat depth_range[2];
+    GLenum depth_function;
+    bool tests_depth, clamps_depth;
+    bool is_zero_to_one; // Depth in clip space is in [0, 1], and not in [-1, 1].
+    bool is_upside_down; // The origin of clip space is the upper left corner.
+    bool multisamples; // The samples of a pixel are drawn one by one.
+    uint32_t samples; // Samples of a pixel of the framebuffer. 0 without a multisample buffer.
+    GLfloat sample[HAIR_RASTER_SAMPLES][2]; // Their positions in a pixel, if it multisamples.
+};
+
 // Two hashes of everything that a program is made from.
 struct hair_gl_key {
     uint64_t hash, check;
@@ -185,6 +198,7 @@ struct hair_gl {
     struct hair_gl_inputs* inputs; // Inputs of programs in lists of instances.
     uint32_t inputs_count, inputs_room;
     struct hair_gl_saved saved;
+    struct hair_gl_draw_state draw_state; // Read by each call that draws or prepares a draw.
 #define FUNCTION(type, name, parameters) type(APIENTRY* name) parameters;
 #include "lib/gl/functions.inl"
 #undef FUNCTION
@@ -343,6 +357,11 @@ static inline bool hair_gl_count_spare(uint32_t* uses, bool is_spare)
     *uses = is_spare ? *uses + 1 : 0;
     return *uses > HAIR_GL_SPARE_USES;
 }
+
+// draw_state.c ------------------------------------------------------------------------------------
+
+// Read what the application has set for drawing into gl->draw_state.
+void hair_gl_read_draw_state(struct hair_gl* gl);
 
 // texture_target.c --------------------------------------------------------------------------------
 

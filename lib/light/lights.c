@@ -3,19 +3,17 @@
 #include "lib/light/lighting.h"
 
 // Return whether depth in clip space of a light's maps is in [0, 1], and not in [-1, 1].
-static bool is_zero_to_one(struct hair_gl* gl, const hair_light* light)
+static bool is_zero_to_one(const struct hair_gl* gl, const hair_light* light)
 {
-    GLint mode = GL_NEGATIVE_ONE_TO_ONE;
     if (light->shadow_depth_range != HAIR_DEPTH_RANGE_CURRENT)
         return light->shadow_depth_range == HAIR_DEPTH_RANGE_ZERO_TO_ONE;
-    gl->GetIntegerv(GL_CLIP_DEPTH_MODE, &mode);
-    return mode == GL_ZERO_TO_ONE;
+    return gl->draw_state.is_zero_to_one;
 }
 
 // Write the matrix from the head's origin to a shadow map. Map xy from [-1, 1] to [0, 1], and z as
 // the depth range says. Reversed depth becomes 1 - depth. In perspective the rows of z and w are
 // parallel in xyz. Depth is then its value at infinity minus a term that falls with the distance.
-static void write_map(struct hair_gl* gl, const struct hair_pose* head, const hair_light* light,
+static void write_map(const struct hair_gl* gl, const struct hair_pose* head, const hair_light* light,
                       hair_mat4* shadow, hair_vec4* map)
 {
     float halve[16] = {0.5f, 0, 0, 0, 0, 0.5f, 0, 0, 0, 0, 0.5f, 0, 0.5f, 0.5f, 0.5f, 1};

@@ -221,6 +221,7 @@ uint32_t hair_test_count_end(GLuint query)
 hair_render_path hair_test_path_of(const struct hair_renderer* renderer, const hair_view* view)
 {
     struct hair_draw_plan plan;
+    hair_gl_read_draw_state(renderer->gl);
     hair_draw_make_plan(renderer, view, NULL, &plan);
     return plan.path;
 }

@@ -25,24 +25,11 @@ struct fixture {
     hair_light light;
 };
 
-// Pixels have one sample, and depth is not tested.
-static void APIENTRY get_integers(GLenum name, GLint* out)
-{
-    *out = name == GL_DEPTH_FUNC ? GL_LESS : 0;
-}
-
-static GLboolean APIENTRY is_enabled(GLenum capability)
-{
-    (void)capability;
-    return GL_FALSE;
-}
-
 static struct fixture* start(void)
 {
     static struct fixture f;
     memset(&f, 0, sizeof f);
-    f.gl.GetIntegerv = get_integers;
-    f.gl.IsEnabled = is_enabled;
+    f.gl.draw_state.depth_function = GL_LESS; // Pixels have one sample, and depth is not tested.
     f.renderer.gl = &f.gl;
     f.renderer.geometry = &f.geometry;
     f.renderer.lighting = &f.lighting;
