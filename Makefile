@@ -99,7 +99,7 @@ examples: $(EXAMPLES) ## The programs of tools/examples/, in build/$(config)/exa
 
 demo: setup ## The main job: build/demo.png and build/demo.mp4, a head of hair in motion
 	@$(MAKE) -j$(JOBS) $(B)/hair-capture
-	$(B)/hair-capture --scene demo --guides 300 --frames 30:31 --size 1280x720 --supersample 4 --followers 70000 --set strand.radius=6.5e-5 -o build/demo.png
+	$(B)/hair-capture --scene demo --guides 300 --frames 30:31 --size 1280x720 --supersample 4 --followers 100000 --set strand.radius=4e-5 -o build/demo.png
 	$(B)/hair-capture --scene demo --frames 0:48 --fps 24 --size 1280x720 --samples 1 --supersample 2 --set coverage=alpha --set strand.segments=16 -o build/demo.mp4
 
 view: setup ## Build and open hair-view, a window with every option in a panel
