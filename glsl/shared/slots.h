@@ -57,6 +57,7 @@
 // momentum.
 #define HAIR_BIND_HAIR_GRID 3
 #define HAIR_BIND_SPLAT 5    // hair_grid_splat[] per guide vertex. Read-only.
+#define HAIR_BIND_SPLAT_ORDER 1 // uint[]. Guide vertices sorted by their cell at rest. Read-only.
 // float[] per node. Volume above which the node exerts pressure. Read-only.
 #define HAIR_BIND_REST_DENSITY 6
 #define HAIR_BIND_ACCELERATION 7     // hair_vec4[] per guide vertex. Acceleration, m/s^2.

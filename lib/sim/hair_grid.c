@@ -14,9 +14,9 @@
 #define MAX_OF_STRAND 16
 
 // Place the grid around all that hair of its rest length can reach.
-static void place_grid(struct hair_sim* sim, const struct hair_guide* guides, const struct hair_rest* rest)
+static void place_grid(const struct hair_sim* sim, const struct hair_guide* guides,
+                       const struct hair_rest* rest, struct hair_grid* hair_grid)
 {
-    struct hair_grid* hair_grid = &sim->hair_grid;
     float lower[3] = {INFINITY, INFINITY, INFINITY};
     float upper[3] = {-INFINITY, -INFINITY, -INFINITY}, widest = 0;
     for (uint32_t i = 0; i < sim->guides; ++i) {
@@ -94,9 +94,9 @@ static void compute_masses(const struct hair_sim* sim, const struct hair_guide* 
         }
 }
 
-static void sort_by_cell(const struct hair_sim* sim, const struct hair_rest* rest, struct grid_layout* layout)
+static void sort_by_cell(const struct hair_sim* sim, const struct hair_rest* rest,
+                         const struct hair_grid* hair_grid, struct grid_layout* layout)
 {
-    const struct hair_grid* hair_grid = &sim->hair_grid;
     for (int place = 0; place < 2; ++place) {
         for (uint32_t i = 0; i < sim->guide_vertices; ++i) {
             struct stencil s = stencil_at(hair_grid, &rest[i].position);
@@ -177,6 +177,14 @@ static hair_result upload_splats(struct hair_sim* sim, hair_gl_category category
     return result;
 }
 
+// Upload the vertices sorted by cell.
+static hair_result upload_order(struct hair_sim* sim, hair_gl_category category,
+                                const struct grid_layout* layout, GLuint* out)
+{
+    return hair_gl_storage(sim->gl, category, "hair grid order", sim->guide_vertices * sizeof(uint32_t),
+                           layout->vertex, out);
+}
+
 // Upload the contributions of vertices and the volume limit of each node. A node exerts pressure
 // above the volume of a full cell, or above its volume at rest if that is greater.
 static hair_result upload_grid(struct hair_sim* sim, const struct hair_guide* guides,
@@ -198,6 +206,7 @@ static hair_result upload_grid(struct hair_sim* sim, const struct hair_guide* gu
     if (!result)
         result = hair_gl_storage(sim->gl, HAIR_GL_CATEGORY_HAIR_GRID, "hair grid rest density",
                                  nodes * sizeof *rest_density, rest_density, &hair_grid->rest_density);
+    if (!result) result = upload_order(sim, HAIR_GL_CATEGORY_HAIR_GRID, layout, &hair_grid->order);
     hair_free(host, rest_density);
     return result;
 }
@@ -207,7 +216,7 @@ static hair_result make_rest(struct hair_sim* sim, const struct hair_guide* guid
 {
     const hair_host* host = &sim->gl->host;
     uint32_t vertices = sim->guide_vertices, nodes;
-    place_grid(sim, guides, rest);
+    place_grid(sim, guides, rest, &sim->hair_grid);
     nodes = node_count(&sim->hair_grid);
     struct grid_layout layout = {0};
     layout.mass = hair_alloc(host, vertices, sizeof *layout.mass);
@@ -221,7 +230,7 @@ static hair_result make_rest(struct hair_sim* sim, const struct hair_guide* guid
         compute_masses(sim, guides, rest, layout.mass);
         sim->hair_grid.metres = 0;
         for (uint32_t i = 0; i < vertices; ++i) sim->hair_grid.metres += layout.mass[i];
-        sort_by_cell(sim, rest, &layout);
+        sort_by_cell(sim, rest, &sim->hair_grid, &layout);
         HAIR_ASSERT(layout.bin[nodes] == vertices);
         fill_layout(sim, rest, &layout);
         result = upload_grid(sim, guides, &layout);
@@ -234,18 +243,29 @@ static hair_result make_rest(struct hair_sim* sim, const struct hair_guide* guid
     return result;
 }
 
-hair_result hair_grid_weigh(struct hair_sim* sim, GLuint* splat, double* metres)
+hair_result hair_grid_weigh(struct hair_sim* sim, GLuint* splat, GLuint* order, double* metres)
 {
     const hair_host* host = &sim->gl->host;
     const struct hair_rest* rest;
     const struct hair_guide* guides = hair_sim_guides(sim, &rest);
-    double* mass = hair_alloc(host, sim->guide_vertices, sizeof *mass);
-    if (!mass) return hair_fail_memory(host, "the lengths of guides");
-    compute_masses(sim, guides, rest, mass);
-    *metres = 0;
-    for (uint32_t i = 0; i < sim->guide_vertices; ++i) *metres += mass[i] / HAIR_GRID_UNITS;
-    hair_result result = upload_splats(sim, HAIR_GL_CATEGORY_WIND, guides, mass, NULL, splat);
-    hair_free(host, mass);
+    struct hair_grid cells = {0};
+    place_grid(sim, guides, rest, &cells);
+    struct grid_layout layout = {.mass = hair_alloc(host, sim->guide_vertices, sizeof *layout.mass),
+                                 .bin = hair_alloc(host, node_count(&cells) + 2, sizeof *layout.bin),
+                                 .vertex = hair_alloc(host, sim->guide_vertices, sizeof *layout.vertex)};
+    bool is_whole = layout.mass && layout.bin && layout.vertex;
+    hair_result result = is_whole ? HAIR_OK : hair_fail_memory(host, "the lengths of guides");
+    if (!result) {
+        compute_masses(sim, guides, rest, layout.mass);
+        *metres = 0;
+        for (uint32_t i = 0; i < sim->guide_vertices; ++i) *metres += layout.mass[i] / HAIR_GRID_UNITS;
+        sort_by_cell(sim, rest, &cells, &layout);
+        result = upload_splats(sim, HAIR_GL_CATEGORY_WIND, guides, layout.mass, NULL, splat);
+    }
+    if (!result) result = upload_order(sim, HAIR_GL_CATEGORY_WIND, &layout, order);
+    hair_free(host, layout.mass);
+    hair_free(host, layout.bin);
+    hair_free(host, layout.vertex);
     return result;
 }
 
@@ -294,6 +314,7 @@ void hair_grid_free_weights(struct hair_sim* sim)
     hair_gl_free_buffer(sim->gl, &hair_grid->params);
     hair_gl_free_buffer(sim->gl, &hair_grid->grid);
     hair_gl_free_buffer(sim->gl, &hair_grid->splat);
+    hair_gl_free_buffer(sim->gl, &hair_grid->order);
     hair_gl_free_buffer(sim->gl, &hair_grid->rest_density);
 }
 
@@ -355,6 +376,7 @@ void hair_grid_update(struct hair_sim* sim)
     hair_gl_write_uniform(gl, hair_grid->params, sizeof params, &params);
     hair_gl_bind_buffers(gl, GL_UNIFORM_BUFFER, HAIR_BIND_HAIR_GRID_PARAMS, 1, &hair_grid->params);
     hair_gl_bind_buffers(gl, GL_SHADER_STORAGE_BUFFER, HAIR_BIND_STATE, 6, storage);
+    hair_gl_bind_buffers(gl, GL_SHADER_STORAGE_BUFFER, HAIR_BIND_SPLAT_ORDER, 1, &hair_grid->order);
     hair_gl_run(gl, HAIR_GL_HAIR_GRID_CLEAR, (grid_fours(hair_grid) + HAIR_GROUP_SIZE - 1) / HAIR_GROUP_SIZE);
     hair_gl_run(gl, HAIR_GL_HAIR_GRID_SPLAT, groups);
     hair_gl_run(gl, HAIR_GL_HAIR_GRID_GATHER, groups);

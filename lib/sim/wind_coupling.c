@@ -42,6 +42,7 @@ static struct hair_fluid_desc desc_of(const struct hair_sim* sim)
 static void free_hair(struct hair_wind_coupling* wind_coupling, struct hair_gl* gl)
 {
     hair_gl_free_buffer(gl, &wind_coupling->splat);
+    hair_gl_free_buffer(gl, &wind_coupling->order);
     hair_gl_free_buffer(gl, &wind_coupling->params);
 }
 
@@ -61,8 +62,8 @@ static hair_result ensure_hair(struct hair_sim* sim, struct hair_fluid* fluid)
     int wanted = is_porous(sim);
     if (!wanted) free_hair(wind_coupling, sim->gl);
     HAIR_TRY(hair_fluid_ensure_hair(fluid, wanted));
-    if (wanted && !wind_coupling->splat)
-        HAIR_TRY(hair_grid_weigh(sim, &wind_coupling->splat, &wind_coupling->metres));
+    if (wanted && !wind_coupling->order)
+        HAIR_TRY(hair_grid_weigh(sim, &wind_coupling->splat, &wind_coupling->order, &wind_coupling->metres));
     if (wanted && !wind_coupling->params)
         HAIR_TRY(hair_gl_uniform(sim->gl, HAIR_GL_CATEGORY_WIND, "hair grid of the fluid",
                                  sizeof(struct hair_grid_params), &wind_coupling->params));
@@ -151,6 +152,7 @@ static void gather_hair(struct hair_sim* sim)
     hair_gl_write_uniform(gl, sim->wind_coupling.params, sizeof params, &params);
     hair_gl_bind_buffers(gl, GL_UNIFORM_BUFFER, HAIR_BIND_HAIR_GRID_PARAMS, 1, &sim->wind_coupling.params);
     hair_gl_bind_buffers(gl, GL_SHADER_STORAGE_BUFFER, HAIR_BIND_STATE, 4, storage);
+    hair_gl_bind_buffers(gl, GL_SHADER_STORAGE_BUFFER, HAIR_BIND_SPLAT_ORDER, 1, &sim->wind_coupling.order);
     hair_gl_run(gl, HAIR_GL_FLUID_CLEAR, (fours + HAIR_GROUP_SIZE - 1) / HAIR_GROUP_SIZE);
     hair_gl_run(gl, HAIR_GL_FLUID_SPLAT, (sim->guide_vertices + HAIR_GROUP_SIZE - 1) / HAIR_GROUP_SIZE);
 }

@@ -16,7 +16,7 @@ struct hair_wind_coupling {
     struct hair_fluid fluid; // Exists from the first to the last step in which the wind is a fluid.
     uint32_t substeps_done; // Number of substeps done in the current block.
     // Buffers of the grid of hair in the fluid, as in hair_grid. 0 if the fluid ignores hair.
-    GLuint splat, params;
+    GLuint splat, order, params;
     double metres; // Length of guides per unit of mass, m.
 };
 
