@@ -1,5 +1,4 @@
-// draw_state.c - what the application has set for drawing. Draws of many instances read it once,
-// because each question takes the processor about as long as a binding.
+// draw_state.c - questions to OpenGL about the state that draws obey.
 #include "lib/gl/gl.h"
 
 // Read the positions of the samples in a pixel.
@@ -26,7 +25,7 @@ void hair_gl_read_draw_state(struct hair_gl* gl)
     gl->GetIntegerv(GL_DEPTH_FUNC, &function);
     out->is_zero_to_one = mode == GL_ZERO_TO_ONE;
     out->is_upside_down = origin == GL_UPPER_LEFT;
-    out->depth_function = (GLenum)function;
+    out->depth_function = (uint32_t)function;
     out->tests_depth = gl->IsEnabled(GL_DEPTH_TEST);
     out->clamps_depth = gl->IsEnabled(GL_DEPTH_CLAMP);
     read_samples(gl, out);

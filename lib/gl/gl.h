@@ -13,6 +13,7 @@
 #include <stdbool.h>
 
 #include "lib/base/host.h"
+#include "lib/gl/draw_state.h"
 #include "glsl/shared.h"
 
 // Rows of passes.inl. A row is also the pass without any feature.
@@ -74,19 +75,6 @@ struct hair_gl_saved {
     GLuint storage[HAIR_BIND_REDUCTION + 1], uniform[HAIR_BIND_FIELD + 1];
     GLintptr storage_first[HAIR_BIND_REDUCTION + 1], uniform_first[HAIR_BIND_FIELD + 1];
     GLsizeiptr storage_size[HAIR_BIND_REDUCTION + 1], uniform_size[HAIR_BIND_FIELD + 1];
-};
-
-// What the application has set for drawing. See draw_state.c.
-struct hair_gl_draw_state {
-    GLfloat viewport[4]; // Lower left corner and size, pixels.
-    GLfloat depth_range[2];
-    GLenum depth_function;
-    bool tests_depth, clamps_depth;
-    bool is_zero_to_one; // Depth in clip space is in [0, 1], and not in [-1, 1].
-    bool is_upside_down; // The origin of clip space is the upper left corner.
-    bool multisamples; // The samples of a pixel are drawn one by one.
-    uint32_t samples; // Samples of a pixel of the framebuffer. 0 without a multisample buffer.
-    GLfloat sample[HAIR_RASTER_SAMPLES][2]; // Their positions in a pixel, if it multisamples.
 };
 
 // Two hashes of everything that a program is made from.
@@ -357,11 +345,6 @@ static inline bool hair_gl_count_spare(uint32_t* uses, bool is_spare)
     *uses = is_spare ? *uses + 1 : 0;
     return *uses > HAIR_GL_SPARE_USES;
 }
-
-// draw_state.c ------------------------------------------------------------------------------------
-
-// Read what the application has set for drawing into gl->draw_state.
-void hair_gl_read_draw_state(struct hair_gl* gl);
 
 // texture_target.c --------------------------------------------------------------------------------
 
