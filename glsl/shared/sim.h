@@ -165,6 +165,17 @@ struct hair_grid_splat {
 };
 HAIR_SIZE(hair_grid_splat)
 
+// Hair at a node of the hair-hair grid. Positions are relative to the node, in cells. All 0 without
+// hair.
+struct hair_grid_node {
+    hair_vec4 centre; // xyz: centre of mass. w: 0 for a strand alone, 1 from two strands on.
+    // xyz: velocity of the centre, divided by HAIR_GRID_SPEED. w: fraction of the volume that is
+    // above what the node holds.
+    hair_vec4 speed;
+    hair_vec4 turn; // xyz: angular velocity, in the unit of speeds per cell. w: 0.
+};
+HAIR_SIZE(hair_grid_node)
+
 // Parameters of the hair-hair grid of mass, momentum and volume. The grid moves with the head.
 struct hair_grid_params {
     hair_vec4 rotation; // Head rotation at the end of the last substep.

@@ -57,6 +57,8 @@
 // momentum.
 #define HAIR_BIND_HAIR_GRID 3
 #define HAIR_BIND_SPLAT 5    // hair_grid_splat[] per guide vertex. Read-only.
+// hair_grid_node[] per grid node, in place of HAIR_BIND_SPLAT.
+#define HAIR_BIND_NODE_MOTION 5
 #define HAIR_BIND_SPLAT_ORDER 1 // uint[]. Guide vertices sorted by their cell at rest. Read-only.
 // float[] per node. Volume above which the node exerts pressure. Read-only.
 #define HAIR_BIND_REST_DENSITY 6

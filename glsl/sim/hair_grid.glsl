@@ -7,16 +7,6 @@ layout(local_size_x = HAIR_GROUP_SIZE) in;
 
 layout(std430, binding = HAIR_BIND_STATE) readonly buffer state_buffer { hair_state state[]; };
 layout(std430, binding = HAIR_BIND_HISTORY) readonly buffer history_buffer { hair_history history[]; };
-layout(std430, binding = HAIR_BIND_HAIR_GRID) buffer hair_grid_buffer { int hair_grid[]; };
-layout(std430, binding = HAIR_BIND_SPLAT) readonly buffer splat_buffer { hair_grid_splat splat[]; };
-layout(std430, binding = HAIR_BIND_REST_DENSITY) readonly buffer rest_density_buffer
-{
-    float rest_density[];
-};
-layout(std430, binding = HAIR_BIND_ACCELERATION) writeonly buffer acceleration_buffer
-{
-    vec4 acceleration[];
-};
 layout(std140, binding = HAIR_BIND_HAIR_GRID_PARAMS) uniform hair_grid_params_buffer
 {
     hair_grid_params params;
@@ -87,11 +77,10 @@ void find_stencil(vec3 at)
 
 uvec3 corner_of(uint k) { return uvec3(k & 1u, k >> 1u & 1u, k >> 2u); }
 
-// Return the index of the first number of a node.
 uint node_of(uvec3 corner)
 {
     uvec3 at = lowest + corner;
-    return NODE_NUMBERS * (at.x + params.nodes_x * (at.y + params.nodes_y * at.z));
+    return at.x + params.nodes_x * (at.y + params.nodes_y * at.z);
 }
 
 vec3 fractions_of(uvec3 corner) { return mix(1.0 - part, part, vec3(corner)); }

@@ -8,36 +8,13 @@
 #version 450 core
 #include "sim/hair_grid.glsl"
 
+layout(std430, binding = HAIR_BIND_HAIR_GRID) buffer hair_grid_buffer { int hair_grid[]; };
+layout(std430, binding = HAIR_BIND_SPLAT) readonly buffer splat_buffer { hair_grid_splat splat[]; };
 layout(std430, binding = HAIR_BIND_SPLAT_ORDER) readonly buffer order_buffer { uint order[]; };
 
-#define SIDE 4u // Nodes along an axis of the part of the grid that a work group adds up.
-#define PART_NUMBERS (SIDE * SIDE * SIDE * NODE_NUMBERS)
-shared int sums[PART_NUMBERS];
-shared uint  first_inside; // First thread whose vertex is inside the grid.
-shared uvec3 part_lowest;  // Lowest node of the part, beside the cell of that vertex.
-bool is_in_part; // All eight nodes around the vertex of this thread are in the part.
+#include "sim/hair_grid_part.glsl"
 
 ivec3 whole(vec3 v) { return ivec3(floor(v + 0.5)); }
-
-// Return the index of the first number of a node, in the sums or in the grid.
-uint place_of(uvec3 corner)
-{
-    uvec3 at = lowest + corner - part_lowest;
-    return is_in_part ? NODE_NUMBERS * (at.x + SIDE * (at.y + SIDE * at.z)) : node_of(corner);
-}
-
-void add(uint at, int v)
-{
-    if (is_in_part) atomicAdd(sums[at], v);
-    else atomicAdd(hair_grid[at], v);
-}
-
-void add(uint at, ivec3 v)
-{
-    add(at, v.x);
-    add(at + 1u, v.y);
-    add(at + 2u, v.z);
-}
 
 #ifndef HAIR_FLUID
 vec4 own_below, own_above; // Mass of the guide at the four lower and the four upper nodes
@@ -122,36 +99,16 @@ void add_all(uint i, vec3 speed)
 
 #endif
 
-// Add the sums of the work group to the grid.
-void add_sums()
-{
-    for (uint n = gl_LocalInvocationID.x; n < PART_NUMBERS; n += HAIR_GROUP_SIZE) {
-        uint  node = n / NODE_NUMBERS;
-        uvec3 at = part_lowest + uvec3(node % SIDE, node / SIDE % SIDE, node / (SIDE * SIDE));
-        if (sums[n] != 0)
-            atomicAdd(hair_grid[NODE_NUMBERS * (at.x + params.nodes_x * (at.y + params.nodes_y * at.z)) +
-                                n % NODE_NUMBERS],
-                      sums[n]);
-    }
-}
-
 void main()
 {
-    uint own = gl_LocalInvocationID.x, i = 0u;
-    for (uint n = own; n < PART_NUMBERS; n += HAIR_GROUP_SIZE) sums[n] = 0;
-    if (own == 0u) first_inside = HAIR_GROUP_SIZE;
-    synchronise();
+    uint i = 0u;
+    clear_sums();
     bool there = thread() < params.vertices;
     if (there) i = order[thread()];
     vec3 speed = speed_of(i), at = grid_position(i, speed);
     there      = there && counts(i) && is_inside(at);
     find_stencil(there ? at : vec3(0.0));
-    if (there) atomicMin(first_inside, own);
-    synchronise();
-    if (own == first_inside) part_lowest = max(lowest, uvec3(1u)) - 1u;
-    synchronise();
-    // Differences below 0 wrap around.
-    is_in_part = all(lessThan(lowest - part_lowest, uvec3(SIDE - 1u)));
+    place_part(there);
     if (there) add_all(i, speed);
     synchronise();
     add_sums();

@@ -151,6 +151,7 @@ PASS(ENERGY, "sim/diagnose_energy", DIAGNOSE, WITH(MIXED), "sim/energy.comp")
 PASS(SUM_IMPULSES, "sim/sum_impulses", IMPULSES, 0, "sim/sum_impulses.comp")
 PASS(HAIR_GRID_CLEAR, "sim/hair_grid_clear", HAIR_GRID, 0, "HAIR_GRID=1 sim/hair_grid_clear.comp")
 PASS(HAIR_GRID_SPLAT, "sim/hair_grid_splat", HAIR_GRID, 0, "HAIR_GRID=1 sim/hair_grid_splat.comp")
+PASS(HAIR_GRID_MOTION, "sim/hair_grid_motion", HAIR_GRID, 0, "HAIR_GRID=1 sim/hair_grid_motion.comp")
 PASS(HAIR_GRID_GATHER, "sim/hair_grid_gather", HAIR_GRID, 0, "HAIR_GRID=1 sim/hair_grid_gather.comp")
 PASS(DIRECT, "sim/direct", SOLVE, RECORDED_FEATURES | WITH(PASS1) | WITH(PASS2), "HAIR_SOLVER=1 sim/rod.comp")
 PASS(ACCURATE, "sim/accurate", SOLVE, RECORDED_FEATURES | WITH(PASS1) | WITH(PASS2),

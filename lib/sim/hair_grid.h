@@ -21,7 +21,7 @@
 // The hair-hair grid. All 0 until hair first has cohesion or volume.
 struct hair_grid {
     // Buffers, as in shared.h, and the texture of `acceleration`.
-    GLuint params, grid, splat, order, rest_density, acceleration, texture;
+    GLuint params, grid, splat, order, rest_density, node_motion, acceleration, texture;
     hair_vec3 lower; // Position of node 0 in the head's frame, m.
     float cell; // Distance between nodes, m.
     double metres; // Total length of all guides, m.
@@ -30,6 +30,19 @@ struct hair_grid {
 };
 
 struct hair_sim;
+
+// hair_grid_rest.c --------------------------------------------------------------------------------
+
+// Place the grid, and upload all that depends on the groom at rest.
+hair_result hair_grid_make_rest(struct hair_sim* sim, const struct hair_guide* guides,
+                                const struct hair_rest* rest);
+uint32_t hair_grid_count_nodes(const struct hair_grid* hair_grid);
+// Create the contributions of guide vertices to a grid of mass alone, a buffer of
+// hair_grid_splat[] that counts as memory of the wind, and the order in which they are added. Set
+// *metres to the length of guides per unit of mass, m.
+hair_result hair_grid_weigh(struct hair_sim* sim, GLuint* splat, GLuint* order, double* metres);
+
+// hair_grid.c -------------------------------------------------------------------------------------
 
 // Make the grid if it is on and has not been made.
 hair_result hair_grid_create(struct hair_sim* sim, const struct hair_guide* guides,
@@ -40,11 +53,6 @@ hair_result hair_sim_ensure_hair_grid(struct hair_sim* sim);
 // stay.
 void hair_grid_free_weights(struct hair_sim* sim);
 void hair_grid_free(struct hair_sim* sim);
-
-// Create the contributions of guide vertices to a grid of mass alone, a buffer of
-// hair_grid_splat[] that counts as memory of the wind, and the order in which they are added. Set
-// *metres to the length of guides per unit of mass, m.
-hair_result hair_grid_weigh(struct hair_sim* sim, GLuint* splat, GLuint* order, double* metres);
 
 // Return whether the grid is on and a block starts with the next substep.
 bool hair_grid_is_due(const struct hair_sim* sim);

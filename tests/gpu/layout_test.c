@@ -34,6 +34,7 @@ static const struct {
     STRUCT(hair_body_change),
     STRUCT(hair_field_collider),
     STRUCT(hair_field_brick),
+    STRUCT(hair_grid_node),
     STRUCT(hair_grid_params),
     STRUCT(hair_grid_splat),
     STRUCT(hair_strand_look),
