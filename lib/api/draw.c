@@ -259,7 +259,9 @@ static uint32_t find_end_of_samples(struct list_part* part, uint32_t first)
     uint32_t end = first;
     for (; end < part->drawn; ++end) {
         size_t more = count_own_numbers(part, end);
-        if (numbers && numbers + more > batch->samples.max) break;
+        bool fits = numbers + more <= batch->samples.max &&
+                    hair_samples_fit(batch->gl, numbers + more, &batch->samples);
+        if (numbers && !fits) break;
         numbers += more;
     }
     if (!hair_samples_ensure(batch->gl, numbers, &batch->samples)) return end;

@@ -1,6 +1,7 @@
 // instance.c - public calls that create one head of living hair, move it and set what it is like.
 #include "lib/api/api.h"
 #include "lib/base/crc.h"
+#include "lib/gl/capture.h"
 
 #include <string.h>
 

@@ -1,5 +1,6 @@
 // step.c - public calls that step one instance or many, reset and teleport.
 #include "lib/api/api.h"
+#include "lib/gl/capture.h"
 
 // Return the time that a step advances by `dt`.
 static double bound_time(hair_instance* hair, double dt)

@@ -23,6 +23,8 @@ struct hair_samples {
 hair_result hair_raster_ensure(struct hair_gl* gl, hair_gl_category category, size_t params, size_t tile,
                                struct hair_raster* raster);
 void hair_raster_free(struct hair_gl* gl, struct hair_raster* raster);
+// Return whether the limit of memory allows room for a number of numbers.
+bool hair_samples_fit(const struct hair_gl* gl, size_t numbers, const struct hair_samples* samples);
 // Make room for a number of numbers. Samples are lost where the room grows.
 hair_result hair_samples_ensure(struct hair_gl* gl, size_t numbers, struct hair_samples* samples);
 void hair_samples_free(struct hair_gl* gl, struct hair_samples* samples);

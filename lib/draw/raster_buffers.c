@@ -37,6 +37,12 @@ void hair_raster_free(struct hair_gl* gl, struct hair_raster* raster)
     raster->tile_room = 0;
 }
 
+bool hair_samples_fit(const struct hair_gl* gl, size_t numbers, const struct hair_samples* samples)
+{
+    return numbers <= samples->room ||
+           hair_gl_memory_allows(&gl->memory, (numbers - samples->room) * sizeof(uint32_t));
+}
+
 hair_result hair_samples_ensure(struct hair_gl* gl, size_t numbers, struct hair_samples* samples)
 {
     if (numbers <= samples->room) return HAIR_OK;

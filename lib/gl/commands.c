@@ -28,6 +28,7 @@ void hair_gl_bind_buffers(struct hair_gl* gl, GLenum target, GLuint first, GLsiz
                           const GLuint* buffers)
 {
     if (is_direct(gl)) {
+        hair_gl_save_slots(gl, target, first, count);
         gl->BindBuffersBase(target, first, count, buffers);
         return;
     }
@@ -42,6 +43,7 @@ void hair_gl_bind_ranges(struct hair_gl* gl, GLenum target, GLuint first, GLsize
                          const GLuint* buffers, const GLintptr* begins, const GLsizeiptr* sizes)
 {
     if (is_direct(gl)) {
+        hair_gl_save_slots(gl, target, first, count);
         gl->BindBuffersRange(target, first, count, buffers, begins, sizes);
         return;
     }
@@ -58,13 +60,17 @@ void hair_gl_bind_ranges(struct hair_gl* gl, GLenum target, GLuint first, GLsize
 void hair_gl_bind_texture(struct hair_gl* gl, GLuint unit, GLuint texture)
 {
     struct hair_gl_command bind = {.kind = HAIR_GL_BIND_TEXTURE, .index = unit, .name = texture};
-    if (!take(gl, &bind)) gl->BindTextureUnit(unit, texture);
+    if (take(gl, &bind)) return;
+    hair_gl_save_units(gl, unit, 1);
+    gl->BindTextureUnit(unit, texture);
 }
 
 void hair_gl_bind_sampler(struct hair_gl* gl, GLuint unit, GLuint sampler)
 {
     struct hair_gl_command bind = {.kind = HAIR_GL_BIND_SAMPLER, .index = unit, .name = sampler};
-    if (!take(gl, &bind)) gl->BindSampler(unit, sampler);
+    if (take(gl, &bind)) return;
+    hair_gl_save_units(gl, unit, 1);
+    gl->BindSampler(unit, sampler);
 }
 
 void hair_gl_bind_image(struct hair_gl* gl, GLuint unit, GLuint texture, bool layered, GLenum access,
@@ -76,7 +82,9 @@ void hair_gl_bind_image(struct hair_gl* gl, GLuint unit, GLuint texture, bool la
                                    .count = layered,
                                    .access = access,
                                    .format = format};
-    if (!take(gl, &bind)) gl->BindImageTexture(unit, texture, 0, layered, 0, access, format);
+    if (take(gl, &bind)) return;
+    hair_gl_save_image(gl, unit);
+    gl->BindImageTexture(unit, texture, 0, layered, 0, access, format);
 }
 
 void hair_gl_copy_buffer(struct hair_gl* gl, GLuint from, GLuint to, GLintptr from_at, GLintptr to_at,

@@ -3,6 +3,7 @@
 // Mesa's llvmpipe numbers the vertices of a tessellated draw in 16 bits. Beyond 65,536 vertices,
 // later patches silently repeat earlier ones. One old driver swaps the two outer levels.
 #include "lib/gl/buffers.h"
+#include "lib/gl/capture.h"
 
 #define LINES 64
 #define SEGMENTS 32

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "lib/base/math.h"
+#include "lib/gl/capture.h"
 
 #define MAX_OWN_SIZE 65521u // Bytes. See hair_gl.own_buffer.
 

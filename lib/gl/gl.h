@@ -63,18 +63,27 @@ struct hair_gl_timer {
     double total; // Duration of all runs read, in ms.
 };
 
+#define HAIR_GL_SAVED_SLOTS (HAIR_BIND_REDUCTION + 1) // HAIR_BIND_FIELD is no greater.
+
+// Buffers of the application at binding slots. `slots` has a bit for each that is saved.
+struct hair_gl_saved_slots {
+    uint32_t slots;
+    GLuint buffer[HAIR_GL_SAVED_SLOTS];
+    GLintptr first[HAIR_GL_SAVED_SLOTS];
+    GLsizeiptr size[HAIR_GL_SAVED_SLOTS];
+};
+
 // State that draws and dispatches change and restore. See state.c.
 struct hair_gl_saved {
     GLint program, vertex_array, patch_vertices, active_texture, cull, restarts;
     GLint draw_indirect, dispatch_indirect;
     bool is_feedback_aside; // True if transform feedback of the application is active.
     GLint feedback, feedback_paused; // Its object, and whether the application has paused it.
+    uint32_t units, images; // Texture and image units that are saved, one bit each.
     GLint texture[HAIR_GL_UNITS], sampler[HAIR_GL_UNITS];
     // Name, level, layered, layer, access and format of each image unit.
     GLint image[HAIR_IMAGE_COLLIDER + 1][6];
-    GLuint storage[HAIR_BIND_REDUCTION + 1], uniform[HAIR_BIND_FIELD + 1];
-    GLintptr storage_first[HAIR_BIND_REDUCTION + 1], uniform_first[HAIR_BIND_FIELD + 1];
-    GLsizeiptr storage_size[HAIR_BIND_REDUCTION + 1], uniform_size[HAIR_BIND_FIELD + 1];
+    struct hair_gl_saved_slots storage, uniform;
 };
 
 // Two hashes of everything that a program is made from.
@@ -314,6 +323,13 @@ void hair_gl_set_owner(struct hair_gl* gl, struct hair_gl_owner* owner, struct h
 // Restore the application's state. Nothing is owned or counted from then on.
 void hair_gl_leave(struct hair_gl* gl);
 
+// Save the buffers, textures and images of the application at slots and units, unless that has been
+// done since hair_gl_enter(). Call these before anything is bound there.
+void hair_gl_save_slots(struct hair_gl* gl, GLenum target, GLuint first, GLsizei count);
+void hair_gl_save_units(struct hair_gl* gl, GLuint first, GLsizei count);
+void hair_gl_save_image(struct hair_gl* gl, GLuint unit);
+void hair_gl_save_all_slots(struct hair_gl* gl); // All but texture units.
+
 // Unbind everything that the library may delete, before it deletes it within a [GL] call.
 void hair_gl_unbind(struct hair_gl* gl);
 
@@ -321,22 +337,6 @@ void hair_gl_unbind(struct hair_gl* gl);
 // its name for hair_gl_end_query_reads().
 GLint hair_gl_begin_query_reads(struct hair_gl* gl);
 void hair_gl_end_query_reads(struct hair_gl* gl, GLint buffer);
-
-// Create a framebuffer without attachments. Transform feedback without rasterisation needs one,
-// because every draw fails without a framebuffer.
-GLuint hair_gl_blank_framebuffer(struct hair_gl* gl);
-// State saved by hair_gl_begin_capture().
-struct hair_gl_capture {
-    GLint framebuffer, feedback;
-    int discard;
-};
-// Return HAIR_ERROR_OPENGL if transform feedback of the application is active, paused or not. Mesa
-// has one primitive mode for all transform feedback, and a capture would change the application's.
-// `name` is what captures.
-hair_result hair_gl_check_capture(const struct hair_gl* gl, const char* name);
-// Begin transform feedback without rasterisation.
-void hair_gl_begin_capture(struct hair_gl* gl, GLuint framebuffer, struct hair_gl_capture* was);
-void hair_gl_end_capture(struct hair_gl* gl, const struct hair_gl_capture* was);
 
 // Count the uses in sequence that need much less than there is. Return whether there were so many
 // that memory is to be made anew, smaller.

@@ -33,6 +33,7 @@ static void bind_run(struct hair_gl* gl, GLenum target, GLuint first, GLuint cou
         at[i] = ranges[i].at;
         size[i] = ranges[i].size;
     }
+    hair_gl_save_slots(gl, target, first, (GLsizei)count);
     if (size[0])
         gl->BindBuffersRange(target, first, (GLsizei)count, buffer, at, size);
     else
@@ -70,7 +71,10 @@ static void bind_textures(struct hair_gl* gl, const GLuint* wanted, GLuint* boun
     for (GLuint i = 0; i <= HAIR_GL_UNITS; ++i) {
         bool is_needed = i < HAIR_GL_UNITS && needed >> i & 1;
         bool is_gap = i == HAIR_GL_UNITS || !((is_needed && wanted[i]) || bound[i]);
-        if (is_gap && first < end) gl->BindTextures(first, (GLsizei)(end - first), bound + first);
+        if (is_gap && first < end) {
+            hair_gl_save_units(gl, first, (GLsizei)(end - first));
+            gl->BindTextures(first, (GLsizei)(end - first), bound + first);
+        }
         if (is_gap) first = HAIR_GL_UNITS, end = 0;
         if (is_gap || !is_needed || !wanted[i] || wanted[i] == bound[i]) continue;
         bound[i] = wanted[i];
@@ -97,6 +101,7 @@ static void bind_stream(struct hair_gl* gl, const struct hair_gl_stream* stream,
         if (!(needed->textures >> i & 1) || !wanted->sampler[i] || wanted->sampler[i] == bound->sampler[i])
             continue;
         bound->sampler[i] = wanted->sampler[i];
+        hair_gl_save_units(gl, i, 1);
         gl->BindSampler(i, wanted->sampler[i] - 1);
     }
     for (GLuint i = 0; i < HAIR_GL_IMAGE_SLOTS; ++i) {
@@ -105,6 +110,7 @@ static void bind_stream(struct hair_gl* gl, const struct hair_gl_stream* stream,
             (want->texture == has->texture && want->is_layered == has->is_layered &&
              want->access == has->access && want->format == has->format))
             continue;
+        hair_gl_save_image(gl, i);
         gl->BindImageTexture(i, want->texture, 0, want->is_layered, 0, want->access, want->format);
         bound->image[i] = *want;
     }

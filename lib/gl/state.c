@@ -1,30 +1,55 @@
 // state.c - the application's OpenGL state, saved and restored. Everything that draws and
-// dispatches change is saved only here. Objects are edited without binding them.
+// dispatches change is saved only here. Objects are edited without binding them. Slots and units
+// are saved when something is first bound there, because most passes bind few.
 #include "lib/gl/gl.h"
 
-static void save_buffers(struct hair_gl* gl, GLenum binding, GLenum first, GLenum size, GLsizei count,
-                         GLuint* buffers, GLintptr* firsts, GLsizeiptr* sizes)
+// Slots from `first` to `first + count`, one bit each.
+static uint32_t bits_of(GLuint first, GLsizei count)
 {
-    for (GLsizei i = 0; i < count; ++i) {
-        GLint buffer = 0;
-        GLint64 first_64 = 0, size_64 = 0;
-        gl->GetIntegeri_v(binding, (GLuint)i, &buffer);
-        gl->GetInteger64i_v(first, (GLuint)i, &first_64);
-        gl->GetInteger64i_v(size, (GLuint)i, &size_64);
-        buffers[i] = (GLuint)buffer;
-        firsts[i] = (GLintptr)first_64;
-        sizes[i] = (GLsizeiptr)size_64;
+    HAIR_ASSERT(count > 0 && first + (GLuint)count <= 32);
+    return (UINT32_MAX >> (32 - count)) << first;
+}
+
+static void save_slot(struct hair_gl* gl, GLenum binding, GLenum first, GLenum size, GLuint slot,
+                      struct hair_gl_saved_slots* saved)
+{
+    GLint buffer = 0;
+    GLint64 first_64 = 0, size_64 = 0;
+    gl->GetIntegeri_v(binding, slot, &buffer);
+    gl->GetInteger64i_v(first, slot, &first_64);
+    gl->GetInteger64i_v(size, slot, &size_64);
+    saved->buffer[slot] = (GLuint)buffer;
+    saved->first[slot] = (GLintptr)first_64;
+    saved->size[slot] = (GLsizeiptr)size_64;
+}
+
+void hair_gl_save_slots(struct hair_gl* gl, GLenum target, GLuint first, GLsizei count)
+{
+    bool is_uniform = target == GL_UNIFORM_BUFFER;
+    struct hair_gl_saved_slots* saved = is_uniform ? &gl->saved.uniform : &gl->saved.storage;
+    uint32_t missing = bits_of(first, count) & ~saved->slots;
+    if (!missing || gl->state_policy == HAIR_GL_STATE_CLOBBER) return;
+    saved->slots |= missing;
+    for (GLuint slot = first; slot < first + (GLuint)count; ++slot) {
+        if (!(missing >> slot & 1)) continue;
+        HAIR_ASSERT(slot < HAIR_GL_SAVED_SLOTS);
+        if (is_uniform)
+            save_slot(gl, GL_UNIFORM_BUFFER_BINDING, GL_UNIFORM_BUFFER_START, GL_UNIFORM_BUFFER_SIZE, slot,
+                      saved);
+        else
+            save_slot(gl, GL_SHADER_STORAGE_BUFFER_BINDING, GL_SHADER_STORAGE_BUFFER_START,
+                      GL_SHADER_STORAGE_BUFFER_SIZE, slot, saved);
     }
 }
 
-static void restore_buffers(struct hair_gl* gl, GLenum target, GLsizei count, const GLuint* buffers,
-                            const GLintptr* firsts, const GLsizeiptr* sizes)
+static void restore_slots(struct hair_gl* gl, GLenum target, const struct hair_gl_saved_slots* saved)
 {
-    for (GLsizei i = 0; i < count; ++i) {
-        if (sizes[i] > 0) // A size of 0 means the whole buffer.
-            gl->BindBuffersRange(target, (GLuint)i, 1, &buffers[i], &firsts[i], &sizes[i]);
+    for (GLuint i = 0; i < HAIR_GL_SAVED_SLOTS; ++i) {
+        if (!(saved->slots >> i & 1)) continue;
+        if (saved->size[i] > 0) // A size of 0 means the whole buffer.
+            gl->BindBuffersRange(target, i, 1, &saved->buffer[i], &saved->first[i], &saved->size[i]);
         else
-            gl->BindBuffersBase(target, (GLuint)i, 1, &buffers[i]);
+            gl->BindBuffersBase(target, i, 1, &saved->buffer[i]);
     }
 }
 
@@ -37,11 +62,15 @@ static GLenum target_of(GLuint unit)
     return unit >= HAIR_UNIT_FIELD ? GL_TEXTURE_3D : GL_TEXTURE_BUFFER;
 }
 
-static void save_units(struct hair_gl* gl)
+void hair_gl_save_units(struct hair_gl* gl, GLuint first, GLsizei count)
 {
     struct hair_gl_saved* saved = &gl->saved;
-    gl->GetIntegerv(GL_ACTIVE_TEXTURE, &saved->active_texture);
-    for (GLuint unit = 0; unit < HAIR_GL_UNITS; ++unit) {
+    uint32_t missing = bits_of(first, count) & ~saved->units;
+    if (!missing || gl->state_policy == HAIR_GL_STATE_CLOBBER) return;
+    if (!saved->units) gl->GetIntegerv(GL_ACTIVE_TEXTURE, &saved->active_texture);
+    saved->units |= missing;
+    for (GLuint unit = first; unit < first + (GLuint)count; ++unit) {
+        if (!(missing >> unit & 1)) continue;
         GLenum target = target_of(unit);
         GLenum binding = target == GL_TEXTURE_2D   ? GL_TEXTURE_BINDING_2D
                          : target == GL_TEXTURE_3D ? GL_TEXTURE_BINDING_3D
@@ -49,36 +78,46 @@ static void save_units(struct hair_gl* gl)
         gl->GetIntegeri_v(binding, unit, &saved->texture[unit]);
         if (target != GL_TEXTURE_BUFFER) gl->GetIntegeri_v(GL_SAMPLER_BINDING, unit, &saved->sampler[unit]);
     }
-    static const GLenum parts[] = {GL_IMAGE_BINDING_NAME,  GL_IMAGE_BINDING_LEVEL,  GL_IMAGE_BINDING_LAYERED,
-                                   GL_IMAGE_BINDING_LAYER, GL_IMAGE_BINDING_ACCESS, GL_IMAGE_BINDING_FORMAT};
-    for (GLuint unit = 0; unit <= HAIR_IMAGE_COLLIDER; ++unit)
-        for (int i = 0; i < 6; ++i) gl->GetIntegeri_v(parts[i], unit, &saved->image[unit][i]);
 }
 
 static void restore_units(struct hair_gl* gl)
 {
     const struct hair_gl_saved* saved = &gl->saved;
     for (GLuint unit = 0; unit < HAIR_GL_UNITS; ++unit) {
+        if (!(saved->units >> unit & 1)) continue;
         // Bind by target, because glBindTextureUnit(unit, 0) would also clear the other targets of
         // the unit.
         gl->ActiveTexture(GL_TEXTURE0 + unit);
         gl->BindTexture(target_of(unit), (GLuint)saved->texture[unit]);
         if (target_of(unit) != GL_TEXTURE_BUFFER) gl->BindSampler(unit, (GLuint)saved->sampler[unit]);
     }
-    gl->ActiveTexture((GLenum)saved->active_texture);
-    for (GLuint unit = 0; unit <= HAIR_IMAGE_COLLIDER; ++unit) {
-        const GLint* i = saved->image[unit];
-        gl->BindImageTexture(unit, (GLuint)i[0], i[1], (GLboolean)i[2], i[3], (GLenum)i[4], (GLenum)i[5]);
-    }
+    if (saved->units) gl->ActiveTexture((GLenum)saved->active_texture);
 }
 
-hair_result hair_gl_check_capture(const struct hair_gl* gl, const char* name)
+void hair_gl_save_image(struct hair_gl* gl, GLuint unit)
 {
-    GLint is_active = 0;
-    gl->GetIntegerv(GL_TRANSFORM_FEEDBACK_ACTIVE, &is_active);
-    if (!is_active) return HAIR_OK;
-    return hair_fail(&gl->host, HAIR_ERROR_OPENGL,
-                     "%s captures by transform feedback itself, but that of the application is active", name);
+    static const GLenum parts[] = {GL_IMAGE_BINDING_NAME,  GL_IMAGE_BINDING_LEVEL,  GL_IMAGE_BINDING_LAYERED,
+                                   GL_IMAGE_BINDING_LAYER, GL_IMAGE_BINDING_ACCESS, GL_IMAGE_BINDING_FORMAT};
+    HAIR_ASSERT(unit <= HAIR_IMAGE_COLLIDER);
+    if (gl->saved.images >> unit & 1 || gl->state_policy == HAIR_GL_STATE_CLOBBER) return;
+    gl->saved.images |= 1u << unit;
+    for (int i = 0; i < 6; ++i) gl->GetIntegeri_v(parts[i], unit, &gl->saved.image[unit][i]);
+}
+
+void hair_gl_save_all_slots(struct hair_gl* gl)
+{
+    hair_gl_save_slots(gl, GL_SHADER_STORAGE_BUFFER, 0, HAIR_BIND_REDUCTION + 1);
+    hair_gl_save_slots(gl, GL_UNIFORM_BUFFER, 0, HAIR_BIND_FIELD + 1);
+    for (GLuint unit = 0; unit <= HAIR_IMAGE_COLLIDER; ++unit) hair_gl_save_image(gl, unit);
+}
+
+static void restore_images(struct hair_gl* gl)
+{
+    for (GLuint unit = 0; unit <= HAIR_IMAGE_COLLIDER; ++unit) {
+        const GLint* i = gl->saved.image[unit];
+        if (gl->saved.images >> unit & 1)
+            gl->BindImageTexture(unit, (GLuint)i[0], i[1], (GLboolean)i[2], i[3], (GLenum)i[4], (GLenum)i[5]);
+    }
 }
 
 // Put active transform feedback of the application aside. Programs cannot change while it is not
@@ -120,12 +159,7 @@ void hair_gl_enter(struct hair_gl* gl)
     gl->GetIntegerv(GL_DISPATCH_INDIRECT_BUFFER_BINDING, &saved->dispatch_indirect);
     saved->cull = gl->IsEnabled(GL_CULL_FACE);
     saved->restarts = gl->IsEnabled(GL_PRIMITIVE_RESTART);
-    save_units(gl);
-    save_buffers(gl, GL_SHADER_STORAGE_BUFFER_BINDING, GL_SHADER_STORAGE_BUFFER_START,
-                 GL_SHADER_STORAGE_BUFFER_SIZE, HAIR_BIND_REDUCTION + 1, saved->storage, saved->storage_first,
-                 saved->storage_size);
-    save_buffers(gl, GL_UNIFORM_BUFFER_BINDING, GL_UNIFORM_BUFFER_START, GL_UNIFORM_BUFFER_SIZE,
-                 HAIR_BIND_FIELD + 1, saved->uniform, saved->uniform_first, saved->uniform_size);
+    saved->storage.slots = saved->uniform.slots = saved->units = saved->images = 0;
 }
 
 void hair_gl_enter_for(struct hair_gl* gl, struct hair_gl_owner* owner, struct hair_gl_profiler* profiler)
@@ -146,6 +180,7 @@ void hair_gl_set_owner(struct hair_gl* gl, struct hair_gl_owner* owner, struct h
 // glBindBufferBase, which also clears the application's generic binding.
 void hair_gl_unbind(struct hair_gl* gl)
 {
+    hair_gl_save_all_slots(gl);
     gl->UseProgram(0);
     gl->BindBuffer(GL_DRAW_INDIRECT_BUFFER, 0);
     gl->BindBuffer(GL_DISPATCH_INDIRECT_BUFFER, 0);
@@ -173,10 +208,9 @@ void hair_gl_leave(struct hair_gl* gl)
     (saved->cull ? gl->Enable : gl->Disable)(GL_CULL_FACE);
     (saved->restarts ? gl->Enable : gl->Disable)(GL_PRIMITIVE_RESTART);
     restore_units(gl);
-    restore_buffers(gl, GL_SHADER_STORAGE_BUFFER, HAIR_BIND_REDUCTION + 1, saved->storage,
-                    saved->storage_first, saved->storage_size);
-    restore_buffers(gl, GL_UNIFORM_BUFFER, HAIR_BIND_FIELD + 1, saved->uniform, saved->uniform_first,
-                    saved->uniform_size);
+    restore_images(gl);
+    restore_slots(gl, GL_SHADER_STORAGE_BUFFER, &saved->storage);
+    restore_slots(gl, GL_UNIFORM_BUFFER, &saved->uniform);
     restore_feedback(gl);
 }
 
@@ -191,31 +225,4 @@ GLint hair_gl_begin_query_reads(struct hair_gl* gl)
 void hair_gl_end_query_reads(struct hair_gl* gl, GLint buffer)
 {
     if (buffer) gl->BindBuffer(GL_QUERY_BUFFER, (GLuint)buffer);
-}
-
-GLuint hair_gl_blank_framebuffer(struct hair_gl* gl)
-{
-    GLuint framebuffer = 0;
-    gl->CreateFramebuffers(1, &framebuffer);
-    if (!framebuffer) return 0;
-    gl->NamedFramebufferParameteri(framebuffer, GL_FRAMEBUFFER_DEFAULT_WIDTH, 1);
-    gl->NamedFramebufferParameteri(framebuffer, GL_FRAMEBUFFER_DEFAULT_HEIGHT, 1);
-    return framebuffer;
-}
-
-void hair_gl_begin_capture(struct hair_gl* gl, GLuint framebuffer, struct hair_gl_capture* was)
-{
-    was->discard = gl->IsEnabled(GL_RASTERIZER_DISCARD);
-    gl->GetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &was->framebuffer);
-    gl->GetIntegerv(GL_TRANSFORM_FEEDBACK_BINDING, &was->feedback);
-    gl->BindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer);
-    gl->BindVertexArray(gl->vertex_array);
-    gl->Enable(GL_RASTERIZER_DISCARD);
-}
-
-void hair_gl_end_capture(struct hair_gl* gl, const struct hair_gl_capture* was)
-{
-    if (!was->discard) gl->Disable(GL_RASTERIZER_DISCARD);
-    gl->BindTransformFeedback(GL_TRANSFORM_FEEDBACK, (GLuint)was->feedback);
-    gl->BindFramebuffer(GL_DRAW_FRAMEBUFFER, (GLuint)was->framebuffer);
 }

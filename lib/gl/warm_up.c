@@ -27,6 +27,7 @@ void hair_gl_warm_up(struct hair_gl* gl, struct hair_gl_program* own)
     if (!buffer) return; // The first run compiles the program then.
     gl->NamedBufferStorage(buffer, SCRATCH, NULL, 0);
     gl->ClearNamedBufferData(buffer, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, NULL);
+    hair_gl_save_all_slots(gl);
     bind_scratch(gl, buffer);
     gl->UseProgram(own->program);
     gl->DispatchCompute(1, 1, 1);

@@ -1,5 +1,6 @@
 // feedback.c - the solver redblack by transform feedback. Every phase draws all guide vertices as
 // points, from one buffer into another.
+#include "lib/gl/capture.h"
 #include "lib/sim/sim.h"
 
 #define GUIDES 2 // Index of the guides' state among HAIR_FEEDBACK_STATES.
