@@ -3,7 +3,7 @@
 // are saved when something is first bound there, because most passes bind few.
 #include "lib/gl/gl.h"
 
-// Slots from `first` to `first + count`, one bit each.
+// Return the bits of the slots from `first` to `first + count`.
 static uint32_t bits_of(GLuint first, GLsizei count)
 {
     HAIR_ASSERT(count > 0 && first + (GLuint)count <= 32);
@@ -16,8 +16,10 @@ static void save_slot(struct hair_gl* gl, GLenum binding, GLenum first, GLenum s
     GLint buffer = 0;
     GLint64 first_64 = 0, size_64 = 0;
     gl->GetIntegeri_v(binding, slot, &buffer);
-    gl->GetInteger64i_v(first, slot, &first_64);
-    gl->GetInteger64i_v(size, slot, &size_64);
+    if (buffer) {
+        gl->GetInteger64i_v(first, slot, &first_64);
+        gl->GetInteger64i_v(size, slot, &size_64);
+    }
     saved->buffer[slot] = (GLuint)buffer;
     saved->first[slot] = (GLintptr)first_64;
     saved->size[slot] = (GLsizeiptr)size_64;
@@ -42,14 +44,23 @@ void hair_gl_save_slots(struct hair_gl* gl, GLenum target, GLuint first, GLsizei
     }
 }
 
+// Return whether a slot is saved that had a whole buffer or none, of which the size is 0.
+static bool was_whole(const struct hair_gl_saved_slots* saved, GLuint slot)
+{
+    return slot < HAIR_GL_SAVED_SLOTS && saved->slots >> slot & 1 && saved->size[slot] == 0;
+}
+
 static void restore_slots(struct hair_gl* gl, GLenum target, const struct hair_gl_saved_slots* saved)
 {
     for (GLuint i = 0; i < HAIR_GL_SAVED_SLOTS; ++i) {
-        if (!(saved->slots >> i & 1)) continue;
-        if (saved->size[i] > 0) // A size of 0 means the whole buffer.
+        GLuint end = i;
+        while (was_whole(saved, end)) ++end;
+        if (end > i) {
+            gl->BindBuffersBase(target, i, (GLsizei)(end - i), &saved->buffer[i]);
+            i = end - 1;
+        } else if (saved->slots >> i & 1) {
             gl->BindBuffersRange(target, i, 1, &saved->buffer[i], &saved->first[i], &saved->size[i]);
-        else
-            gl->BindBuffersBase(target, i, 1, &saved->buffer[i]);
+        }
     }
 }
 

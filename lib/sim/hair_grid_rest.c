@@ -254,6 +254,7 @@ hair_result hair_grid_weigh(struct hair_sim* sim, GLuint* splat, GLuint* order, 
         result = upload_splats(sim, HAIR_GL_CATEGORY_WIND, guides, layout.mass, NULL, splat);
     }
     if (!result) result = upload_order(sim, HAIR_GL_CATEGORY_WIND, &layout, order);
+    if (result) hair_gl_free_buffer(sim->gl, splat);
     hair_free(host, layout.mass);
     hair_free(host, layout.bin);
     hair_free(host, layout.vertex);
