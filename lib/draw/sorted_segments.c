@@ -52,7 +52,7 @@ void hair_draw_sort(struct hair_renderer* renderer)
     GLuint sorts[] = {sorted_segments->bucket, sorted_segments->index};
     GLuint strands[] = {renderer->strand_list.strand, renderer->strand_list.command};
     uint32_t groups = (uint32_t)((sorted_segments->segments + HAIR_GROUP_SIZE - 1) / HAIR_GROUP_SIZE);
-    hair_gl_fill_buffer(gl, sorted_segments->bucket, 0);
+    hair_gl_clear_buffer(gl, sorted_segments->bucket);
     hair_gl_bind_buffers(gl, GL_SHADER_STORAGE_BUFFER, HAIR_BIND_HISTOGRAM, 2, sorts);
     hair_gl_bind_buffers(gl, GL_SHADER_STORAGE_BUFFER, HAIR_BIND_STRAND, 2, strands);
     hair_gl_bind_buffers(gl, GL_SHADER_STORAGE_BUFFER, HAIR_BIND_RIBBON_POSITION, 1,

@@ -95,10 +95,10 @@ void hair_gl_copy_buffer(struct hair_gl* gl, GLuint from, GLuint to, GLintptr fr
     if (!take(gl, &copy)) gl->CopyNamedBufferSubData(from, to, from_at, to_at, size);
 }
 
-void hair_gl_fill_buffer(struct hair_gl* gl, GLuint buffer, uint32_t word)
+void hair_gl_clear_buffer(struct hair_gl* gl, GLuint buffer)
 {
-    struct hair_gl_command fill = {.kind = HAIR_GL_FILL, .name = buffer, .access = word};
-    if (!take(gl, &fill)) gl->ClearNamedBufferData(buffer, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, &word);
+    struct hair_gl_command clear = {.kind = HAIR_GL_CLEAR, .name = buffer};
+    if (!take(gl, &clear)) gl->ClearNamedBufferData(buffer, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, NULL);
 }
 
 void hair_gl_barrier(struct hair_gl* gl, GLbitfield barriers)

@@ -22,8 +22,9 @@ void hair_gl_bind_image(struct hair_gl* gl, GLuint unit, GLuint texture, bool la
 // Copy `size` bytes between buffers.
 void hair_gl_copy_buffer(struct hair_gl* gl, GLuint from, GLuint to, GLintptr from_at, GLintptr to_at,
                          GLsizeiptr size);
-// Fill a buffer with a word.
-void hair_gl_fill_buffer(struct hair_gl* gl, GLuint buffer, uint32_t word);
+// Fill a buffer with zeros. OpenGL is given no word, because Mesa reads one as the application has
+// texels unpacked, from beyond its end.
+void hair_gl_clear_buffer(struct hair_gl* gl, GLuint buffer);
 void hair_gl_barrier(struct hair_gl* gl, GLbitfield barriers);
 // Create a fence after all commands so far. `*out` receives the fence no later than
 // hair_gl_end_recording(), or NULL if the driver refuses it.

@@ -156,8 +156,8 @@ static void play(struct hair_gl* gl, struct hair_gl_stream* stream, const struct
         range = resolve(stream, range);
         gl->CopyNamedBufferSubData(range.buffer, command->to, range.at, command->to_at, command->size);
         break;
-    case HAIR_GL_FILL:
-        gl->ClearNamedBufferData(command->name, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, &command->access);
+    case HAIR_GL_CLEAR:
+        gl->ClearNamedBufferData(command->name, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, NULL);
         break;
     case HAIR_GL_BARRIER: gl->MemoryBarrier(command->access); break;
     case HAIR_GL_FENCE: *command->fence = gl->FenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0); break;

@@ -18,7 +18,7 @@ enum hair_gl_command_kind {
     HAIR_GL_BIND_IMAGE,
     HAIR_GL_WRITE,
     HAIR_GL_COPY,
-    HAIR_GL_FILL,
+    HAIR_GL_CLEAR,
     HAIR_GL_BARRIER,
     HAIR_GL_FENCE,
     HAIR_GL_DISPATCH,
@@ -31,7 +31,7 @@ struct hair_gl_command {
     enum hair_gl_command_kind kind;
     GLuint name, to; // Buffer, texture, sampler or program. Destination of a copy.
     uint32_t index, count, all; // Slot or unit, first group, and numbers of groups.
-    GLenum access, format; // Image. `access` also has barriers, and the word of a fill.
+    GLenum access, format; // Image. `access` also has barriers.
     GLintptr at, to_at;
     GLsizeiptr size; // 0 means the whole buffer.
     GLsync* fence;

@@ -285,7 +285,7 @@ void hair_impulses_end_step(struct hair_sim* sim)
     if (slot->count)
         hair_gl_copy_buffer(gl, impulses->sum, impulses->readback, 0,
                             (GLintptr)(number * impulses->room * BYTES), bytes);
-    hair_gl_fill_buffer(gl, impulses->sum, 0);
+    hair_gl_clear_buffer(gl, impulses->sum);
     slot->fence = gl->FenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
     if (slot->fence) ++impulses->used; // The driver may refuse a fence. The step is then not told.
     hair_gl_record_again(gl, was_recording);

@@ -80,7 +80,7 @@ static hair_result load_state(struct hair_sim* sim, const unsigned char* bytes, 
     if (has_lengths)
         result = hair_lengths_make(sim, loaded.guide_fraction, loaded.follower_fraction, &lengths);
     if (!result) result = upload_state(&s);
-    if (!result && sim->bend && s.lacks_bend) hair_gl_fill_buffer(sim->gl, sim->bend, 0);
+    if (!result && sim->bend && s.lacks_bend) hair_gl_clear_buffer(sim->gl, sim->bend);
     if (!result && still) hair_scalp_motion_restore_rest(&own, still);
     hair_gl_free_buffer(sim->gl, &still);
     hair_free(host, s.native);

@@ -137,7 +137,7 @@ static hair_result find_motion(struct hair_sim* sim, uint32_t found[HAIR_FOUND_C
         HAIR_TRY(hair_gl_storage(gl, HAIR_GL_CATEGORY_DIAGNOSE, "hair motion found",
                                  HAIR_FOUND_COUNT * sizeof *found, NULL, &d->found));
     hair_gl_write_uniform(gl, d->motion_params, sizeof params, &params);
-    hair_gl_fill_buffer(gl, d->found, 0);
+    hair_gl_clear_buffer(gl, d->found);
     hair_sim_bind(sim);
     hair_gl_bind_buffers(gl, GL_UNIFORM_BUFFER, HAIR_BIND_MOTION_PARAMS, 1, &d->motion_params);
     hair_gl_bind_buffers(gl, GL_SHADER_STORAGE_BUFFER, HAIR_BIND_FOUND, 1, &d->found);
